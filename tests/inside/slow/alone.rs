@@ -5,14 +5,16 @@ use std::process::Command;
 /// Set in the process of a test that runs alone.
 const ALONE: &str = "DTG_PASSPORT_TEST_ALONE";
 
-/// Runs a test in a process of its own. Its name is that of the module (`module_path!()`) and of the function.
-pub fn alone(module: &str, function: &str, test: impl FnOnce()) {
+/// Runs a test, the closure that is all of a test function, in a process of its own.
+pub fn alone<T: FnOnce()>(test: T) {
     if std::env::var_os(ALONE).is_some() {
         return test();
     }
-    let (_, module) = module.split_once("::").expect("the crate's name and the module's");
+    // The name of a closure begins with those of the crate and of the function.
+    let name = std::any::type_name::<T>().strip_suffix("::{{closure}}").and_then(|name| name.split_once("::"));
+    let (_, name) = name.expect("a closure in a function");
     let mut command = Command::new(std::env::current_exe().expect("the tests' own file"));
-    command.args([&format!("{module}::{function}"), "--exact", "--include-ignored", "--nocapture"]).env(ALONE, "1");
+    command.args([name, "--exact", "--include-ignored", "--nocapture"]).env(ALONE, "1");
     let output = command.output().expect("the tests' own program runs");
     let [said, errors] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
     print!("{said}");

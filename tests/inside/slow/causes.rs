@@ -2,11 +2,12 @@
 //! is, and whether intervals cover when K or ω_0 varies. The figures of docs/laboratory.md and docs/development/figures.md:
 //! `DTG_TRIALS=4000 cargo test --release --lib inside::slow::causes -- --nocapture`.
 
+use super::{errors_of, least_squares_only, shares};
 use crate::inside::reference::*;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{Calibration, InputUncertainty, Kind, Method, Options, Readings, Setup, calibrate};
 use dtg_passport::coefficients::Position;
-use dtg_passport::statistics::random::{Run, Stream};
+use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::Budget;
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::{Matrix2, Vector2};
@@ -65,39 +66,33 @@ fn bench(design: Design) -> (Vec<Position>, Setup) {
     (stand, setup)
 }
 
-/// Returns the readings of a run, and K and ω_0 of the gyro at its mean time.
+/// Returns the readings of a run.
 fn run(stream: &mut Stream, (stand, setup): &(Vec<Position>, Setup), of: Design, fault: &Fault) -> Readings {
     let gyro = gvk_6();
-    let on = |arcsec: &dyn Fn(usize) -> f64| {
-        let mut moved = stand.clone();
-        for (place, at) in moved.iter_mut().enumerate() {
-            at.deviation.gamma_rad += radians_from_arcseconds(arcsec(place));
-        }
-        moved
-    };
     let moved = stream.below(8);
     let axes: Vec<[f64; 3]> = (0..8).map(|_| [0, 1, 2].map(|_| fault.stand_arcsec * stream.normal())).collect();
-    let of_stand = |sign: f64| {
-        let mut at =
-            on(&|place| sign * fault.backlash_arcsec / 2.0 + if place == moved { fault.position_arcsec } else { 0.0 });
-        for (at, [x, y, z]) in at.iter_mut().zip(&axes) {
+    // The stand when a position is approached from one side, from neither, and from the other.
+    let setups = [-1.0, 0.0, 1.0].map(|side: f64| {
+        let mut real = stand.clone();
+        for (place, (at, [x, y, z])) in real.iter_mut().zip(&axes).enumerate() {
+            let off = if place == moved { fault.position_arcsec } else { 0.0 };
             at.deviation.alpha_rad += radians_from_arcseconds(*x);
             at.deviation.beta_rad += radians_from_arcseconds(*y);
-            at.deviation.gamma_rad += radians_from_arcseconds(*z);
+            at.deviation.gamma_rad += radians_from_arcseconds(z + off + side * fault.backlash_arcsec / 2.0);
         }
-        crate::inside::reference::setup(&at, LATITUDE_DEG)
-    };
-    let setups = [-1.0, 0.0, 1.0].map(of_stand);
-    let meter = setup.uncertainty().meter;
-    let exact = currents(setup, &gyro);
-    let own: Vec<Vector2<f64>> =
-        exact.iter().map(|at| at.map(|j| meter.own_variance_ma2(j).sqrt() * stream.normal())).collect();
+        crate::inside::reference::setup(&real, LATITUDE_DEG)
+    });
+    let own = errors_of(setup.uncertainty().meter, &currents(setup, &gyro), stream);
     let off = (
         stream.below(of.turn_ons as usize) as u32 + 1,
         stream.below(of.visits),
         stream.below(8),
         stream.below(of.rows),
     );
+    let mut taken_at: [usize; 8] = std::array::from_fn(|place| place);
+    if fault.exchanged {
+        taken_at.swap(moved, (moved + 1) % 8);
+    }
     let mut rows = Vec::new();
     let mean_s = f64::from(of.turn_ons - 1) * TURN_ON_S / 2.0;
     for cycle in 1..=of.turn_ons {
@@ -106,7 +101,7 @@ fn run(stream: &mut Stream, (stand, setup): &(Vec<Position>, Setup), of: Design,
         of_cycle.k_deg_per_h_per_ma += change * gyro.k_deg_per_h_per_ma;
         let bias = Vector2::from_fn(|_, _| libm::hypot(TURN_ON, fault.turn_on_deg_per_h) * stream.normal());
         let inverse = of_cycle.k_deg_per_h_per_ma.try_inverse().unwrap();
-        let exact = [0, 1, 2].map(|sign| currents(&setups[sign], &of_cycle));
+        let exact = setups.each_ref().map(|setup| currents(setup, &of_cycle));
         let mut before: Option<usize> = None;
         for visit in 0..of.visits {
             let mut order: Vec<usize> = (0..8).collect();
@@ -119,38 +114,29 @@ fn run(stream: &mut Stream, (stand, setup): &(Vec<Position>, Setup), of: Design,
                 let time_s = f64::from(cycle - 1) * TURN_ON_S + since_s;
                 let noise = if fault.noise_deg_per_h > 0.0 { fault.noise_deg_per_h } else { VISIT };
                 let noise = Vector2::from_fn(|_, _| noise * stream.normal());
-                let here = |at: (u32, usize, usize, usize)| (at.0, at.1, at.2) == (cycle, visit, place);
+                let is_off = (off.0, off.1, off.2) == (cycle, visit, place);
                 let mut rate =
                     bias + noise + Vector2::new(1.0, -0.5) * fault.drift_deg_per_h2 * (time_s - mean_s) / 3600.0;
                 rate += Vector2::new(1.0, -1.0) * fault.settling_deg_per_h * libm::exp(-since_s / 200.0);
-                if here(off) {
+                if is_off {
                     rate += Vector2::new(0.8, 0.6) * fault.visit_deg_per_h;
                 }
-                let phi = |place: usize| stand[place].phi_deg;
-                let side = before.map_or(0.0, |before| phi(place) - phi(before));
-                let sign = if side == 0.0 {
-                    1
-                } else if side > 0.0 {
-                    2
-                } else {
-                    0
-                };
+                let turned_deg = before.map_or(0.0, |before| stand[place].phi_deg - stand[before].phi_deg);
+                let side = 1 + usize::from(turned_deg > 0.0) - usize::from(turned_deg < 0.0);
                 before = Some(place);
-                let place_of = match (fault.exchanged, place) {
-                    (true, place) if place == moved => (moved + 1) % 8,
-                    (true, place) if place == (moved + 1) % 8 => moved,
-                    _ => place,
-                };
-                let mut current = exact[sign][place_of] + own[place] - inverse * rate;
+                let mut current = exact[side][taken_at[place]] + own[place] - inverse * rate;
                 if let Some(map) = fault.of_turn_on.filter(|_| cycle == 2) {
                     current = map(current);
                 }
                 for row in 0..of.rows {
-                    let noise =
-                        if of.rows > 1 { Vector2::from_fn(|_, _| 1e-6 * stream.normal()) } else { Vector2::zeros() };
-                    let wrong =
-                        if here(off) && row == off.3 { Vector2::new(fault.row_ma, 0.0) } else { Vector2::zeros() };
-                    let at = Reading::new(setup.coefficients().positions[place].index, current + noise + wrong);
+                    let mut read = current;
+                    if of.rows > 1 {
+                        read += Vector2::from_fn(|_, _| 1e-6 * stream.normal());
+                    }
+                    if is_off && row == off.3 {
+                        read.x += fault.row_ma;
+                    }
+                    let at = Reading::new(setup.coefficients().positions[place].index, read);
                     rows.push(Reading { cycle, visit: Some(visit as u32 + 1), time_s: Some(time_s), ..at });
                 }
             }
@@ -159,21 +145,15 @@ fn run(stream: &mut Stream, (stand, setup): &(Vec<Position>, Setup), of: Design,
     Readings::of_rows(setup.coefficients(), &rows).unwrap()
 }
 
-fn only(drift: bool) -> Options {
-    Options { methods: vec![Method::LeastSquares], drift, ..Options::default() }
-}
-
 fn solved(setup: &Setup, readings: &Readings) -> Calibration {
-    calibrate(setup, readings, &only(false)).unwrap()
+    calibrate(setup, readings, &least_squares_only()).unwrap()
 }
 
 /// Share of runs for which `is` holds, in percent.
 fn share(seed: u64, count: u64, of: Design, fault: Fault, is: impl Fn(&Calibration) -> bool + Sync) -> f64 {
     let bench = bench(of);
-    let blocks = Run::new(count, seed).blocks(|stream, trials| {
-        (0..trials).filter(|_| is(&solved(&bench.1, &run(stream, &bench, of, &fault)))).count()
-    });
-    100.0 * blocks.iter().sum::<usize>() as f64 / count as f64
+    let [share] = shares(count, seed, |stream| [is(&solved(&bench.1, &run(stream, &bench, of, &fault)))]);
+    share
 }
 
 /// Designs of good runs: one visit, two visits, turn-ons, rows; with and without a stated noise.
@@ -203,57 +183,34 @@ fn good_gyros_are_hardly_ever_accused() {
     }
 }
 
-/// A fault with a size: name, design, kind, the size in the table of docs/laboratory.md, and the fault of a size.
-type Sized = (&'static str, Design, Kind, f64, fn(f64) -> Fault);
+/// A fault with a size: name, design, kind, the size in the table of docs/laboratory.md, and what has this size.
+type Sized = (&'static str, Design, Kind, f64, fn(&mut Fault) -> &mut f64);
 
-/// Faults with a size.
-fn faults() -> Vec<Sized> {
-    vec![
-        ("visit", design(3, 1, 1, true), Kind::Visit, 0.013, |size| Fault {
-            visit_deg_per_h: size,
-            ..Fault::default()
-        }),
-        ("row", design(1, 1, 4, true), Kind::Row, 6e-6, |size| Fault { row_ma: size, ..Fault::default() }),
-        ("k_differs", design(3, 1, 1, true), Kind::KDiffers, 0.028, |size| Fault {
-            k_percent: size,
-            ..Fault::default()
-        }),
-        ("drift", design(1, 2, 1, true), Kind::Drift, 0.012, |size| Fault {
-            drift_deg_per_h2: size,
-            ..Fault::default()
-        }),
-        ("settling", design(1, 3, 1, true), Kind::Settling, 0.0066, |size| Fault {
-            settling_deg_per_h: size,
-            ..Fault::default()
-        }),
-        ("backlash", design(1, 4, 1, true), Kind::Backlash, 91.0, |size| Fault {
-            backlash_arcsec: size,
-            ..Fault::default()
-        }),
-        ("position", design(1, 1, 1, true), Kind::Position, 315.0, |size| Fault {
-            position_arcsec: size,
-            ..Fault::default()
-        }),
-        ("gyro_noise", design(1, 1, 1, false), Kind::GyroNoise, 0.0022, |size| Fault {
-            noise_deg_per_h: size,
-            ..Fault::default()
-        }),
-        ("turn_on_scatter", design(5, 1, 1, true), Kind::TurnOnScatter, 0.017, |size| Fault {
-            turn_on_deg_per_h: size,
-            ..Fault::default()
-        }),
-        ("stand", design(1, 1, 1, true), Kind::Stand, 141.0, |size| Fault { stand_arcsec: size, ..Fault::default() }),
-    ]
-}
+const FAULTS: [Sized; 10] = [
+    ("visit", design(3, 1, 1, true), Kind::Visit, 0.013, |fault| &mut fault.visit_deg_per_h),
+    ("row", design(1, 1, 4, true), Kind::Row, 6e-6, |fault| &mut fault.row_ma),
+    ("k_differs", design(3, 1, 1, true), Kind::KDiffers, 0.028, |fault| &mut fault.k_percent),
+    ("drift", design(1, 2, 1, true), Kind::Drift, 0.012, |fault| &mut fault.drift_deg_per_h2),
+    ("settling", design(1, 3, 1, true), Kind::Settling, 0.0066, |fault| &mut fault.settling_deg_per_h),
+    ("backlash", design(1, 4, 1, true), Kind::Backlash, 91.0, |fault| &mut fault.backlash_arcsec),
+    ("position", design(1, 1, 1, true), Kind::Position, 315.0, |fault| &mut fault.position_arcsec),
+    ("gyro_noise", design(1, 1, 1, false), Kind::GyroNoise, 0.0022, |fault| &mut fault.noise_deg_per_h),
+    ("turn_on_scatter", design(5, 1, 1, true), Kind::TurnOnScatter, 0.017, |fault| &mut fault.turn_on_deg_per_h),
+    ("stand", design(1, 1, 1, true), Kind::Stand, 141.0, |fault| &mut fault.stand_arcsec),
+];
 
 /// A fault of the size in the table is named first in half of the runs, and in nearly all at three times this size.
 #[test]
 fn the_right_cause_is_named_first() {
     let count = trials().min(400);
-    for (number, (name, of, kind, detectable, fault)) in faults().into_iter().enumerate() {
-        let is = |found: &Calibration| found.causes.first().is_some_and(|cause| cause.kind == kind);
-        let [named, right] =
-            [1.0, 3.0].map(|times| share(700 + number as u64, count, of, fault(times * detectable), is));
+    for (number, (name, of, kind, detectable, size)) in FAULTS.into_iter().enumerate() {
+        let [named, right] = [1.0, 3.0].map(|times| {
+            let mut fault = Fault::default();
+            *size(&mut fault) = times * detectable;
+            share(700 + number as u64, count, of, fault, |found| {
+                found.causes.first().is_some_and(|cause| cause.kind == kind)
+            })
+        });
         println!("{name}: first for {detectable:.1e} {named:.1} %; for three times this {right:.1} %");
         // Three standard errors of 200 runs are 10.6 %; the sizes are rounded.
         assert!((named - 50.0).abs() <= 15.0, "{name}: {named}");
@@ -272,10 +229,12 @@ fn exchanged_currents_and_positions_are_named() {
         ("range y", Kind::Range, |j| Vector2::new(j.x, 10.0 * j.y)),
         ("range", Kind::Range, |j| j / 2.0),
     ];
+    // All are named in 400 of 400 runs of each.
+    let count = super::trials(60).min(400);
     for (number, (name, kind, map)) in of_turn_on.into_iter().enumerate() {
         for stated in [false, true] {
             let fault = Fault { of_turn_on: Some(map), ..Fault::default() };
-            let right = share(600 + number as u64, trials().min(400), design(3, 1, 1, stated), fault, |found| {
+            let right = share(600 + number as u64, count, design(3, 1, 1, stated), fault, |found| {
                 let first = found.mistake();
                 !found.consistent && first.is_some_and(|cause| cause.kind == kind && cause.scope.cycle == Some(2))
             });
@@ -284,7 +243,7 @@ fn exchanged_currents_and_positions_are_named() {
         }
     }
     let fault = Fault { exchanged: true, ..Fault::default() };
-    let right = share(650, trials().min(400), design(1, 1, 1, true), fault, |found| {
+    let right = share(650, count, design(1, 1, 1, true), fault, |found| {
         found.mistake().is_some_and(|cause| cause.kind == Kind::PositionsExchanged)
     });
     println!("positions_exchanged: right first {right:.1} %");
@@ -293,31 +252,26 @@ fn exchanged_currents_and_positions_are_named() {
 
 /// Share of 95 % intervals that cover the true value, in percent.
 fn coverage(seed: u64, of: Design, fault: Fault, drift: bool) -> [f64; 8] {
-    let (bench, truth) = (bench(of), gvk_6().to_vector());
-    let count = trials().max(200);
-    let mean_of_first_s = PERIOD_S * (8 * of.visits - 1) as f64 / 2.0;
-    let blocks = Run::new(count, seed).blocks(|stream, trials| {
-        let mut covered = [0_u32; 8];
-        for _ in 0..trials {
-            let mut readings = run(stream, &bench, of, &fault);
+    let bench = bench(of);
+    // ω_0 is that at the mean time of the readings.
+    let drifted = fault.drift_deg_per_h2 * PERIOD_S * (8 * of.visits - 1) as f64 / 2.0 / 3600.0;
+    let mut due = gvk_6().to_vector();
+    due[4] += drifted;
+    due[5] -= 0.5 * drifted;
+    shares(trials().max(200), seed, |stream| {
+        let mut readings = run(stream, &bench, of, &fault);
+        if fault.visit_deg_per_h > 0.0 {
             // What the result advises: without the visit that is named.
             let named = solved(&bench.1, &readings).causes.into_iter().find(|cause| cause.kind == Kind::Visit);
-            if let Some(rest) =
-                named.filter(|_| fault.visit_deg_per_h > 0.0).and_then(|cause| cause.left_out(&readings))
-            {
-                readings = rest;
-            }
-            let budget = Budget::new(&bench.1, &readings, Method::LeastSquares, &only(drift)).unwrap();
-            // ω_0 is that at the mean time of the readings.
-            let drifted = fault.drift_deg_per_h2 * mean_of_first_s / 3600.0;
-            for (place, line) in budget.parameters.iter().enumerate() {
-                let due = truth[place] + [0.0, 0.0, 0.0, 0.0, drifted, -0.5 * drifted, 0.0, 0.0][place];
-                covered[place] += u32::from((line.value - due).abs() <= line.expanded_uncertainty());
-            }
+            readings = named.and_then(|cause| cause.left_out(&readings)).unwrap_or(readings);
         }
-        covered
-    });
-    std::array::from_fn(|place| 100.0 * f64::from(blocks.iter().map(|block| block[place]).sum::<u32>()) / count as f64)
+        let options = Options { drift, ..least_squares_only() };
+        let budget = Budget::new(&bench.1, &readings, Method::LeastSquares, &options).unwrap();
+        std::array::from_fn(|place| {
+            let line = &budget.parameters[place];
+            (line.value - due[place]).abs() <= line.expanded_uncertainty()
+        })
+    })
 }
 
 /// Expected: 95 %, within 1.5 percentage points and three standard errors of the share. Two turn-ons have a single difference of

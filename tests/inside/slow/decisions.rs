@@ -3,7 +3,7 @@
 use super::stated_uncertainty::{inputs, read};
 use crate::inside::reference::*;
 use dtg_passport::calibration::verdict::{Decision, Found, against_type};
-use dtg_passport::calibration::{Method, Options, Parameter, Readings, Setup, calibrate};
+use dtg_passport::calibration::{Parameter, Readings, Setup, calibrate};
 use dtg_passport::coefficients::EarthRate;
 use dtg_passport::gyro::{DecisionRule, GyroParameters, GyroType, Rule, Tolerance};
 use dtg_passport::statistics::random::Stream;
@@ -65,7 +65,7 @@ fn pass_as_predicted(wide: f64) {
     let tolerance = TOLERANCE.map(|tolerance| wide * tolerance);
     let (certified, u) = inputs();
     let setup = Setup::new(&certified, EarthRate::at_astronomic_latitude(LATITUDE_DEG), u.clone()).unwrap();
-    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let options = super::least_squares_only();
     let rules = [(Rule::Simple, None), (Rule::Guarded, Some(0.5)), (Rule::Guarded, None)];
     let limits = Tolerance {
         k_main_percent: 0.05 * wide,

@@ -63,60 +63,60 @@ fn within_bound<T>(name: &str, input: &[u8], run: impl FnOnce() -> T) -> T {
 
 #[test]
 fn payloads_that_anybody_signed_are_refused_soon() {
-    alone(module_path!(), "payloads_that_anybody_signed_are_refused_soon", signed_payloads);
-}
-
-fn signed_payloads() {
-    let key = SigningKey::generate().unwrap();
-    let trust = fixtures::trust(&SigningKey::generate().unwrap());
-    for (name, payload) in payloads() {
-        let file = fixtures::signed(&payload, &key);
-        assert!(file.len() <= LARGEST_DOCUMENT_BYTES, "{name}: {}", file.len());
-        let answer =
-            within_bound(name, file.as_bytes(), || verify(name, file.as_bytes(), &trust, &fixtures::question()));
-        assert!(!answer.valid(), "{name}");
-        let said: usize = answer.checks().iter().map(|check| check.detail.len()).sum();
-        assert!(said < 100_000, "{name}: {said} bytes of words");
-        assert!(within_bound(name, file.as_bytes(), || content_from_anyone(name, file.as_bytes())).is_err(), "{name}");
-    }
+    alone(|| {
+        let key = SigningKey::generate().unwrap();
+        let trust = fixtures::trust(&SigningKey::generate().unwrap());
+        for (name, payload) in payloads() {
+            let file = fixtures::signed(&payload, &key);
+            assert!(file.len() <= LARGEST_DOCUMENT_BYTES, "{name}: {}", file.len());
+            let answer =
+                within_bound(name, file.as_bytes(), || verify(name, file.as_bytes(), &trust, &fixtures::question()));
+            assert!(!answer.valid(), "{name}");
+            let said: usize = answer.checks().iter().map(|check| check.detail.len()).sum();
+            assert!(said < 100_000, "{name}: {said} bytes of words");
+            assert!(
+                within_bound(name, file.as_bytes(), || content_from_anyone(name, file.as_bytes())).is_err(),
+                "{name}"
+            );
+        }
+    });
 }
 
 /// Stand and site files need not obey the text rule: aliases, merge keys and block scalars reach their parser.
 #[test]
 fn files_of_hand_are_refused_soon() {
-    alone(module_path!(), "files_of_hand_are_refused_soon", files_of_hand);
-}
-
-fn files_of_hand() {
-    let aliases = |level: usize| {
-        let nine = vec![format!("*a{}", level - 1); 9].join(", ");
-        format!("a{level}: &a{level} [{nine}]\n")
-    };
-    let bomb: String = std::iter::once("a0: &a0 [1, 1]\n".to_owned()).chain((1..30).map(aliases)).collect();
-    let stand = "format: \"dtg-stand/1\"\nstand: {model: \"a\", serial: \"b\"}\n\
-                 certificate: {number: \"1\", issued: \"2026-01-01\", laboratory: \"x\"}\npositions:\n";
-    let position = "  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 0, beta_arcsec: 0, gamma_arcsec: 0}\n";
-    let mut texts = payloads();
-    texts.extend([
-        ("an alias bomb", bomb),
-        ("a long text and its aliases", {
-            format!("a: &a \"{}\"\nb: [{}]\n", "x".repeat(FULL / 2), "*a,".repeat(FULL / 6 - 10))
-        }),
-        ("a long list and its aliases", {
-            format!("a: &a [{}]\nb: [{}]\n", "1,".repeat(FULL / 4), "*a,".repeat(FULL / 6 - 10))
-        }),
-        ("merge keys", format!("a: &a {{x: 1}}\nb: {{{}}}\n", "<<: *a,".repeat(FULL / 7 - 10))),
-        ("tags", format!("a: [{}]\n", "!x 1,".repeat(FULL / 5 - 10))),
-        ("a folded text", format!("a: >\n{}", "  x\n".repeat(FULL / 4 - 10))),
-        ("explicit keys", filled("? a\n: b\n")),
-        ("one position again and again", format!("{stand}{}", position.repeat(FULL / position.len() - 10))),
-    ]);
-    for (name, text) in texts {
-        let refused =
-            within_bound(name, text.as_bytes(), || Stand::from_yaml(name, text.as_bytes())).unwrap_err().to_string();
-        assert!(refused.len() < 100_000, "{name}: {} bytes of words", refused.len());
-        assert!(within_bound(name, text.as_bytes(), || Site::from_yaml(name, text.as_bytes())).is_err(), "{name}");
-    }
+    alone(|| {
+        let aliases = |level: usize| {
+            let nine = vec![format!("*a{}", level - 1); 9].join(", ");
+            format!("a{level}: &a{level} [{nine}]\n")
+        };
+        let bomb: String = std::iter::once("a0: &a0 [1, 1]\n".to_owned()).chain((1..30).map(aliases)).collect();
+        let stand = "format: \"dtg-stand/1\"\nstand: {model: \"a\", serial: \"b\"}\n\
+                     certificate: {number: \"1\", issued: \"2026-01-01\", laboratory: \"x\"}\npositions:\n";
+        let position = "  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 0, beta_arcsec: 0, gamma_arcsec: 0}\n";
+        let mut texts = payloads();
+        texts.extend([
+            ("an alias bomb", bomb),
+            ("a long text and its aliases", {
+                format!("a: &a \"{}\"\nb: [{}]\n", "x".repeat(FULL / 2), "*a,".repeat(FULL / 6 - 10))
+            }),
+            ("a long list and its aliases", {
+                format!("a: &a [{}]\nb: [{}]\n", "1,".repeat(FULL / 4), "*a,".repeat(FULL / 6 - 10))
+            }),
+            ("merge keys", format!("a: &a {{x: 1}}\nb: {{{}}}\n", "<<: *a,".repeat(FULL / 7 - 10))),
+            ("tags", format!("a: [{}]\n", "!x 1,".repeat(FULL / 5 - 10))),
+            ("a folded text", format!("a: >\n{}", "  x\n".repeat(FULL / 4 - 10))),
+            ("explicit keys", filled("? a\n: b\n")),
+            ("one position again and again", format!("{stand}{}", position.repeat(FULL / position.len() - 10))),
+        ]);
+        for (name, text) in texts {
+            let refused = within_bound(name, text.as_bytes(), || Stand::from_yaml(name, text.as_bytes()))
+                .unwrap_err()
+                .to_string();
+            assert!(refused.len() < 100_000, "{name}: {} bytes of words", refused.len());
+            assert!(within_bound(name, text.as_bytes(), || Site::from_yaml(name, text.as_bytes())).is_err(), "{name}");
+        }
+    });
 }
 
 #[test]
@@ -150,34 +150,32 @@ fn aliases_that_repeat_little_and_brackets_in_texts_are_no_attack() {
 
 #[test]
 fn above_the_size_limit_nothing_is_looked_at() {
-    alone(module_path!(), "above_the_size_limit_nothing_is_looked_at", above_the_size_limit);
-}
-
-fn above_the_size_limit() {
-    let trust = fixtures::trust(&SigningKey::generate().unwrap());
-    let large = [
-        ("100 MB of brackets", vec![b'['; 100 << 20]),
-        ("100 MB of zeros", vec![0; 100 << 20]),
-        ("a byte too many", vec![b'\n'; LARGEST_DOCUMENT_BYTES + 1]),
-    ];
-    for (name, bytes) in large {
-        // No copy is made of it either.
-        let answer = within_bound(name, b"", || verify(name, &bytes, &trust, &fixtures::question()));
-        let refused = answer.checks().iter().find(|check| check.passed() == Some(false)).unwrap();
-        assert!(refused.detail.contains("more than 1048576 bytes"), "{}", refused.detail);
-        assert!(within_bound(name, b"", || Stand::from_yaml(name, &bytes)).is_err());
-    }
-    // At the limit, whatever is in the place of the armor.
-    for (name, text) in [
-        ("an endless armor", format!("a: 1\nsignature: |\n{}", "  AAAA\n".repeat(FULL / 7))),
-        ("an armor in one line", format!("a: 1\nsignature: |\n  {}\n", "A".repeat(FULL - 100))),
-        ("signature lines", "signature: |\n".repeat(FULL / 13)),
-        ("almost signature lines", "\nsignature: ".repeat(FULL / 12)),
-    ] {
-        assert!(
-            !within_bound(name, text.as_bytes(), || verify(name, text.as_bytes(), &trust, &fixtures::question()))
-                .valid(),
-            "{name}"
-        );
-    }
+    alone(|| {
+        let trust = fixtures::trust(&SigningKey::generate().unwrap());
+        let large = [
+            ("100 MB of brackets", vec![b'['; 100 << 20]),
+            ("100 MB of zeros", vec![0; 100 << 20]),
+            ("a byte too many", vec![b'\n'; LARGEST_DOCUMENT_BYTES + 1]),
+        ];
+        for (name, bytes) in large {
+            // No copy is made of it either.
+            let answer = within_bound(name, b"", || verify(name, &bytes, &trust, &fixtures::question()));
+            let refused = answer.checks().iter().find(|check| check.passed() == Some(false)).unwrap();
+            assert!(refused.detail.contains("more than 1048576 bytes"), "{}", refused.detail);
+            assert!(within_bound(name, b"", || Stand::from_yaml(name, &bytes)).is_err());
+        }
+        // At the limit, whatever is in the place of the armor.
+        for (name, text) in [
+            ("an endless armor", format!("a: 1\nsignature: |\n{}", "  AAAA\n".repeat(FULL / 7))),
+            ("an armor in one line", format!("a: 1\nsignature: |\n  {}\n", "A".repeat(FULL - 100))),
+            ("signature lines", "signature: |\n".repeat(FULL / 13)),
+            ("almost signature lines", "\nsignature: ".repeat(FULL / 12)),
+        ] {
+            assert!(
+                !within_bound(name, text.as_bytes(), || verify(name, text.as_bytes(), &trust, &fixtures::question()))
+                    .valid(),
+                "{name}"
+            );
+        }
+    });
 }

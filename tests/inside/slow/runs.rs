@@ -1,5 +1,6 @@
 //! Real runs: turn-ons, drift in time, gyro noise, the general model, positions that are missing.
 
+use super::{equations, errors_of, least_squares_only};
 use crate::inside::reference::*;
 use dtg_passport::calibration::drift::drift_test as drift_of;
 use dtg_passport::calibration::finding::layer::Layer;
@@ -12,10 +13,10 @@ use dtg_passport::calibration::{
     Calibration, InputUncertainty, Kind, Method, MethodResult, Model, NoLeastSquares, Options, Readings, Setup,
     calibrate,
 };
-use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::Budget;
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, SMatrix, Vector2, Vector3};
 
 /// Gyro noise of "equal noise" in the reference figures, °/h.
 const EQUAL_NOISE_DEG_PER_H: f64 = 0.002;
@@ -31,9 +32,20 @@ fn bench(stand: &[Position], visit: Option<f64>, turn_on: Option<f64>) -> Setup 
     Setup::new(stand, EarthRate::at_astronomic_latitude(LATITUDE_DEG), u).unwrap()
 }
 
-fn ideal() -> [Position; 8] {
-    let none = dtg_passport::attitude::Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
-    EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none })
+fn ideal() -> Vec<Position> {
+    eight([[0.0; 3]; 8])
+}
+
+/// A good stand with the paper's meter.
+fn with_the_papers_meter(seed: u64) -> Setup {
+    let u =
+        InputUncertainty { visit_deg_per_h: Some(EQUAL_NOISE_DEG_PER_H), ..InputUncertainty::of_meter(paper_meter()) };
+    with_uncertainty(&drawn_stand(&mut Stream::new(seed), 3.0), LATITUDE_DEG, u)
+}
+
+/// The drift of a visit, °/h.
+fn noise(stream: &mut Stream, deg_per_h: f64) -> Vector2<f64> {
+    Vector2::from_fn(|_, _| deg_per_h * stream.normal())
 }
 
 /// Drift of a gyro beyond K and ω_0.
@@ -77,6 +89,9 @@ impl Drifting {
     }
 }
 
+/// All positions in their order.
+const ALL: &[usize] = &[0, 1, 2, 3, 4, 5, 6, 7];
+
 /// Each of `cycles` visits the places in their order, a minute apart.
 fn whole_cycles(cycles: u32, places: &[usize]) -> Vec<Planned> {
     let each = (1..=cycles).flat_map(|cycle| places.iter().map(move |place| (*place, cycle)));
@@ -104,7 +119,7 @@ fn exact_readings_give_exact_parameters() {
     gyro.turn_ons = [Vector2::new(0.05, -0.02), Vector2::new(-0.03, 0.04), Vector2::new(-0.02, -0.02)];
     let mut general = gyro;
     general.g += Matrix2x3::new(0.3, 0.2, -0.4, -0.1, 0.25, 0.5);
-    let full = whole_cycles(3, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let full = whole_cycles(3, ALL);
     let ragged = [&full[..13], &full[14..16], &full[19..]].concat();
     for visit in [None, Some(0.001)] {
         let setup = bench(&stand, visit, None);
@@ -140,16 +155,14 @@ fn exact_readings_give_exact_parameters() {
 /// errors are that of the visit and one that all visits to a position share (the specification of the meter).
 #[test]
 fn differences_of_visits_lose_nothing() {
-    let mut u = InputUncertainty::of_meter(paper_meter());
-    u.visit_deg_per_h = Some(EQUAL_NOISE_DEG_PER_H);
-    let setup = with_uncertainty(&drawn_stand(&mut Stream::new(8), 3.0), LATITUDE_DEG, u);
-    let full = whole_cycles(3, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let setup = with_the_papers_meter(8);
+    let full = whole_cycles(3, ALL);
     let plan = [&full[..11], &full[13..14], &full[16..22]].concat();
     let mut gyro = Drifting::none();
     gyro.per_hour = Vector2::new(0.02, -0.01);
     gyro.turn_ons = [Vector2::new(0.01, -0.02), Vector2::new(-0.01, 0.01), Vector2::new(0.0, 0.01)];
     let mut stream = Stream::new(3);
-    let readings = gyro.read(&setup, &plan, || Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal()));
+    let readings = gyro.read(&setup, &plan, || noise(&mut stream, EQUAL_NOISE_DEG_PER_H));
     let found = solved(&setup, &readings, &drifting(Model::Paper));
     let result = least_squares(&found);
 
@@ -171,29 +184,17 @@ fn differences_of_visits_lose_nothing() {
             - parameters.omega_n_deg_per_h_per_g() * at.specific_force_g;
         let j = k.try_inverse().unwrap() * torqued;
         let n = at.specific_force_g;
-        let coded = match visit.cycle {
-            1 => [1.0, 0.0],
-            2 => [0.0, 1.0],
-            _ => [-1.0, -1.0],
-        };
-        let equations = [[j.x, j.y, 0.0, 0.0, 1.0, 0.0, n.x, -n.y], [0.0, 0.0, j.x, j.y, 0.0, 1.0, n.y, n.x]];
-        let misclosure = torqued - k * visit.mean_ma;
-        for axis in 0..2 {
-            let row = 2 * one + axis;
-            for (column, value) in equations[axis].iter().enumerate() {
-                design[(row, column)] = *value;
-            }
-            for (term, value) in [coded[0], coded[1], hours].into_iter().enumerate() {
-                design[(row, 8 + 2 * term + axis)] = value;
-            }
-            right[row] = misclosure[axis];
+        let coded = [[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]][visit.cycle as usize - 1];
+        design.view_mut((2 * one, 0), (2, 8)).copy_from(&equations(j, n));
+        for (term, value) in [coded[0], coded[1], hours].into_iter().enumerate() {
+            design.view_mut((2 * one, 8 + 2 * term), (2, 2)).fill_diagonal(value);
         }
+        right.rows_mut(2 * one, 2).copy_from(&(torqued - k * visit.mean_ma));
         let specification = k * Matrix2::from_diagonal(&j.map(|j| meter.own_variance_ma2(j))) * k.transpose();
-        for (other, (index, _)) in visits.iter().enumerate().filter(|(_, (other, _))| other == index) {
+        for (other, _) in visits.iter().enumerate().filter(|(_, (other, _))| other == index) {
             let own = if one == other { EQUAL_NOISE_DEG_PER_H.powi(2) } else { 0.0 };
             let block = specification + Matrix2::from_diagonal_element(own);
             covariance.view_mut((2 * one, 2 * other), (2, 2)).copy_from(&block);
-            let _ = index;
         }
     }
     let weight = covariance.try_inverse().unwrap();
@@ -221,10 +222,9 @@ fn differences_of_visits_lose_nothing() {
 #[test]
 fn uncertainties_of_the_general_model() {
     let setup = bench(&ideal(), Some(EQUAL_NOISE_DEG_PER_H), None);
-    let readings = Drifting::none().read(&setup, &whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]), Vector2::zeros);
+    let readings = Drifting::none().read(&setup, &whole_cycles(1, ALL), Vector2::zeros);
     let of = |model| {
-        let options = Options { model, ..Options::default() };
-        let found = solved(&setup, &readings, &options);
+        let found = solved(&setup, &readings, &Options { model, ..Options::default() });
         least_squares(&found).clone()
     };
     let (paper, general) = (of(Model::Paper), of(Model::General));
@@ -263,7 +263,7 @@ fn what_a_drift_costs() {
         let (with, without) = (u(true), u(false));
         with.iter().zip(without).map(|(with, without)| with / without - 1.0).fold(0.0, f64::max)
     };
-    let natural = cost(&[0, 1, 2, 3, 4, 5, 6, 7]);
+    let natural = cost(ALL);
     assert!((natural - 0.052).abs() < 0.001, "{natural}");
     // (0, 180), (0, 0), (90, 0), (90, 180), (90, 90), (90, 270), (0, 90), (0, 270)
     let best = cost(&[2, 0, 4, 6, 5, 7, 1, 3]);
@@ -273,13 +273,13 @@ fn what_a_drift_costs() {
 /// Full cycles lose nothing in K, and their scatter is in the long-term ω_0 alone.
 #[test]
 fn turn_ons_scatter_in_omega_0_alone() {
-    let plan = whole_cycles(3, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let plan = whole_cycles(3, ALL);
     let stated = bench(&ideal(), Some(0.001), Some(0.01));
     let quiet = bench(&ideal(), Some(0.001), Some(0.0));
     let mut gyro = Drifting::none();
     gyro.turn_ons = [Vector2::new(0.012, 0.0), Vector2::new(-0.004, 0.01), Vector2::new(-0.008, -0.01)];
     let mut stream = Stream::new(3);
-    let mut noise = || Vector2::from_fn(|_, _| 0.001 * stream.normal());
+    let mut noise = || noise(&mut stream, 0.001);
     let with = solved(&stated, &gyro.read(&stated, &plan, &mut noise), &Options::default());
     let without = solved(&quiet, &Drifting::none().read(&quiet, &plan, &mut noise), &Options::default());
     let u = |found: &Calibration, parameter| least_squares(found).standard_uncertainty(parameter).unwrap();
@@ -302,13 +302,13 @@ fn turn_ons_scatter_in_omega_0_alone() {
 /// What a type does not state is estimated; what it states wrongly is replaced.
 #[test]
 fn noise_is_stated_estimated_or_named() {
-    let plan = whole_cycles(4, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let plan = whole_cycles(4, ALL);
     let mut gyro = Drifting::none();
     gyro.turn_ons = [Vector2::new(0.05, 0.0), Vector2::new(-0.04, 0.06), Vector2::new(-0.01, -0.06)];
     let read = |setup: &Setup| {
         let mut stream = Stream::new(7);
         let plan: Vec<Planned> = plan.iter().map(|(place, cycle, time_s)| (*place, (*cycle).min(3), *time_s)).collect();
-        gyro.read(setup, &plan, || Vector2::from_fn(|_, _| 0.002 * stream.normal()))
+        gyro.read(setup, &plan, || noise(&mut stream, 0.002))
     };
     let of = |visit, turn_on| {
         let setup = bench(&ideal(), visit, turn_on);
@@ -316,19 +316,16 @@ fn noise_is_stated_estimated_or_named() {
     };
     let found = of(None, None);
     let (visit, turn_on) = (found.visit_noise, found.turn_on_noise);
-    assert_eq!((visit.source, turn_on.source), (NoiseSource::Estimated, NoiseSource::Estimated));
+    assert_eq!([visit.source, turn_on.source], [NoiseSource::Estimated; 2]);
     // 32 visits less 8 means and 2 turn-ons, two axes; three turn-ons, two axes.
     assert_eq!((visit.degrees_of_freedom, turn_on.degrees_of_freedom), (44.0, 4.0));
     assert!((visit.deg_per_h / 0.002 - 1.0).abs() < 0.25, "{visit:?}");
     assert!((turn_on.deg_per_h / 0.0534 - 1.0).abs() < 0.05, "{turn_on:?}");
     let found = of(Some(0.0), Some(0.001));
-    assert_eq!(
-        (found.visit_noise.source, found.turn_on_noise.source),
-        (NoiseSource::Estimated, NoiseSource::Estimated)
-    );
+    assert_eq!([found.visit_noise.source, found.turn_on_noise.source], [NoiseSource::Estimated; 2]);
     assert!(found.turn_on_scatter.unwrap().probability < 0.001);
     let setup = bench(&ideal(), None, None);
-    let once = Drifting::none().read(&setup, &whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]), Vector2::zeros);
+    let once = Drifting::none().read(&setup, &whole_cycles(1, ALL), Vector2::zeros);
     let found = solved(&setup, &once, &Options::default());
     assert_eq!(found.noise_not_stated().count(), 2);
 }
@@ -339,12 +336,11 @@ fn noise_is_stated_estimated_or_named() {
 #[test]
 fn a_drift_is_named_by_the_order_of_the_rows() {
     let setup = bench(&ideal(), None, None);
-    let (once, mut stream) = ([0, 1, 2, 3, 4, 5, 6, 7], Stream::new(4));
-    let mut noise = || Vector2::from_fn(|_, _| 0.001 * stream.normal());
+    let mut stream = Stream::new(4);
     let mut gyro = Drifting::none();
     gyro.per_hour = Vector2::new(0.3, 0.0);
     let mut found = |gyro: &Drifting, places: &[usize], numbered: bool, sorted: bool| {
-        let mut rows = gyro.rows(&setup, &whole_cycles(1, places), &mut noise);
+        let mut rows = gyro.rows(&setup, &whole_cycles(1, places), || noise(&mut stream, 0.001));
         for (place, row) in rows.iter_mut().enumerate() {
             row.time_s = None;
             row.visit = numbered.then_some(place as u32 / 8 + 1);
@@ -355,14 +351,14 @@ fn a_drift_is_named_by_the_order_of_the_rows() {
         let readings = Readings::of_rows(setup.coefficients(), &rows).unwrap();
         drift(&solved(&setup, &readings, &Options::default()))
     };
-    let thrice = once.repeat(3);
+    let thrice = ALL.repeat(3);
     let test = found(&gyro, &thrice, false, false).unwrap();
     assert!((test[0] - 0.005).abs() < 2e-4, "{test:?}");
     assert_eq!(found(&Drifting::none(), &thrice, false, false), None);
     let numbered = found(&gyro, &thrice, true, false).unwrap();
     assert!((numbered[0] - 0.005).abs() < 2e-4, "{numbered:?}");
     assert_eq!(found(&gyro, &thrice, true, true), None);
-    assert_eq!(found(&gyro, &once, false, false), None);
+    assert_eq!(found(&gyro, ALL, false, false), None);
     let timed = gyro.read(&setup, &whole_cycles(1, &thrice), Vector2::zeros);
     let timed = solved(&setup, &timed, &Options::default());
     assert_eq!(timed.causes[0].unit.as_deref(), Some("deg/h/h"));
@@ -378,7 +374,7 @@ fn drift(found: &Calibration) -> Option<[f64; 2]> {
 fn a_drift_is_named() {
     let setup = bench(&ideal(), Some(0.001), None);
     let mut gyro = Drifting::none();
-    let plan = whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let plan = whole_cycles(1, ALL);
     let quiet = solved(&setup, &gyro.read(&setup, &plan, Vector2::zeros), &Options::default());
     assert_eq!(drift(&quiet), None);
     gyro.per_hour = Vector2::new(0.3, 0.0);
@@ -409,7 +405,7 @@ fn a_drift_is_named() {
 /// Eight positions, and some of them once more an hour later.
 fn revisited(places: &[usize]) -> Vec<Planned> {
     let again = places.iter().enumerate().map(|(number, place)| (*place, 1, 3600.0 + 60.0 * number as f64));
-    whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]).into_iter().chain(again).collect()
+    whole_cycles(1, ALL).into_iter().chain(again).collect()
 }
 
 /// Expected: a probability is below 5 % in at most 5 % of runs without a drift and with a correct model, and if nothing
@@ -419,7 +415,7 @@ fn few_degrees_of_freedom_of_the_noise_are_no_drift() {
     const TRIALS: u32 = 3000;
     let due = 0.05 * f64::from(TRIALS);
     let error = (due * 0.95).sqrt();
-    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let options = least_squares_only();
     let stand = drawn_stand(&mut Stream::new(8), 0.5);
     for (seed, (reading, again)) in
         [(0.0, &[0, 1, 2][..]), (0.0, &[0]), (8.7e-5, &[0, 1, 2]), (8.7e-5, &[0, 4]), (8.7e-5, &[0])]
@@ -440,8 +436,7 @@ fn few_degrees_of_freedom_of_the_noise_are_no_drift() {
             let own: Vec<Vector2<f64>> = exact.iter().map(|j| k * j.map(|j| reading * j * stream.normal())).collect();
             let plan = revisited(again);
             let mut place = plan.iter().map(|(place, ..)| *place);
-            let error =
-                || own[place.next().unwrap()] + Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal());
+            let error = || own[place.next().unwrap()] + noise(&mut stream, EQUAL_NOISE_DEG_PER_H);
             let readings = Drifting::none().read(&setup, &plan, error);
             let found = solved(&setup, &readings, &options);
             misfits += u32::from(least_squares(&found).chi_square.probability < 0.05);
@@ -470,7 +465,7 @@ fn a_drift_or_noise() {
     let read = |setup: &Setup, again: &[usize], per_hour: f64| {
         let mut stream = Stream::new(5);
         let gyro = Drifting { per_hour: Vector2::new(per_hour, 0.0), ..Drifting::none() };
-        gyro.read(setup, &revisited(again), || Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal()))
+        gyro.read(setup, &revisited(again), || noise(&mut stream, EQUAL_NOISE_DEG_PER_H))
     };
     let setup = bench(&ideal(), None, None);
     let closing = read(&setup, &[0], 0.1);
@@ -497,14 +492,13 @@ fn a_drift_or_noise() {
 #[test]
 fn the_general_model_is_found_to_be_needed() {
     let setup = bench(&drawn_stand(&mut Stream::new(8), 3.0), Some(EQUAL_NOISE_DEG_PER_H), None);
-    let plan = whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]);
+    let plan = whole_cycles(1, ALL);
     let mut stream = Stream::new(17);
     let options = Options { model: Model::General, ..Options::default() };
     let mut named = |gyro: &Drifting, trials: u32| {
         let mut named = 0;
         for _ in 0..trials {
-            let readings =
-                gyro.read(&setup, &plan, || Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal()));
+            let readings = gyro.read(&setup, &plan, || noise(&mut stream, EQUAL_NOISE_DEG_PER_H));
             let found = solved(&setup, &readings, &options);
             named += u32::from(least_squares(&found).document.model_test.unwrap().is_significant());
         }
@@ -524,7 +518,7 @@ fn a_position_that_could_not_be_reached() {
     let setup = bench(&ideal(), Some(EQUAL_NOISE_DEG_PER_H), None);
     let of = |places: &[usize]| {
         let readings = Drifting::none().read(&setup, &whole_cycles(1, places), Vector2::zeros);
-        calibrate(&setup, &readings, &Options { methods: vec![Method::LeastSquares], ..Options::default() })
+        calibrate(&setup, &readings, &least_squares_only())
     };
     let size = |found: &Calibration| {
         let gyro = gvk_6().to_vector();
@@ -536,7 +530,7 @@ fn a_position_that_could_not_be_reached() {
         };
         Parameter::EIGHT.map(of).iter().sum::<f64>().sqrt()
     };
-    let all = size(&of(&[0, 1, 2, 3, 4, 5, 6, 7]).unwrap());
+    let all = size(&of(ALL).unwrap());
     for missing in 0..8 {
         let places: Vec<usize> = (0..8).filter(|place| *place != missing).collect();
         let ratio = size(&of(&places).unwrap()) / all;
@@ -550,7 +544,7 @@ fn a_position_that_could_not_be_reached() {
     assert_eq!((determined(6), determined(5), determined(4)), (28, 56, 64));
     // Five positions cannot determine twelve parameters, and it is said which.
     let readings = Drifting::none().read(&setup, &whole_cycles(1, &[0, 1, 2, 4, 5]), Vector2::zeros);
-    let options = Options { model: Model::General, methods: vec![Method::LeastSquares], ..Options::default() };
+    let options = Options { model: Model::General, ..least_squares_only() };
     let words = calibrate(&setup, &readings, &options).unwrap_err().to_string();
     assert!(words.contains("these positions cannot") && words.contains("G_"), "{words}");
 }
@@ -558,30 +552,22 @@ fn a_position_that_could_not_be_reached() {
 /// Expected: the information matrix M = Σ F′ C⁻¹ F, once with one visit of each position and once with two of one.
 #[test]
 fn the_further_visit_that_helps_most_is_named() {
-    let mut u = InputUncertainty::of_meter(paper_meter());
-    u.visit_deg_per_h = Some(EQUAL_NOISE_DEG_PER_H);
-    let setup = with_uncertainty(&drawn_stand(&mut Stream::new(31), 3.0), LATITUDE_DEG, u);
+    let setup = with_the_papers_meter(31);
     let gyro = gvk_6();
     let exact = currents(&setup, &gyro);
     let information = |visits: &[f64]| {
-        let mut sum = DMatrix::zeros(8, 8);
+        let mut sum = SMatrix::<f64, 8, 8>::zeros();
         for ((at, j), visits) in setup.coefficients().positions.iter().zip(&exact).zip(visits) {
-            let [x, y] = [at.specific_force_g.x, at.specific_force_g.y];
-            let f = DMatrix::from_row_slice(
-                2,
-                8,
-                &[j.x, j.y, 0.0, 0.0, 1.0, 0.0, x, -y, 0.0, 0.0, j.x, j.y, 0.0, 1.0, y, x],
-            );
+            let f = equations(*j, at.specific_force_g);
             let meter = Matrix2::from_diagonal(&j.map(|j| setup.uncertainty().meter.own_variance_ma2(j)));
             let k = gyro.k_deg_per_h_per_ma;
             let c = k * meter * k.transpose() + Matrix2::identity() * (EQUAL_NOISE_DEG_PER_H.powi(2) / visits);
-            let weight = c.try_inverse().unwrap();
-            sum += f.transpose() * DMatrix::from_column_slice(2, 2, weight.as_slice()) * f;
+            sum += f.transpose() * c.try_inverse().unwrap() * f;
         }
         sum.try_inverse().unwrap()
     };
     let readings = readings(&setup, &exact);
-    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let options = least_squares_only();
     let calibration = calibrate(&setup, &readings, &options).unwrap();
     let before = information(&[1.0; 8]);
     for (place, parameter) in Parameter::EIGHT.into_iter().enumerate() {
@@ -608,23 +594,21 @@ fn coverage(visit: f64, turn_on: f64, stated: bool, cycles: u32, visits: u32, se
         (u.visit_deg_per_h, u.turn_on_deg_per_h) = (Some(visit), Some(turn_on));
     }
     let setup = with_uncertainty(&drawn_stand(&mut Stream::new(8), 3.0), LATITUDE_DEG, u);
-    let meter = setup.uncertainty().meter;
     let exact = currents(&setup, &gvk_6());
     let inverse = gvk_6().k_deg_per_h_per_ma.try_inverse().unwrap();
     let truth = gvk_6().to_vector();
     let mut stream = Stream::new(seed);
     let mut covered = [0_u32; 8];
-    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let options = least_squares_only();
     for _ in 0..TRIALS {
-        let own: Vec<Vector2<f64>> =
-            exact.iter().map(|at| at.map(|j| meter.own_variance_ma2(j).sqrt() * stream.normal())).collect();
+        let own = errors_of(setup.uncertainty().meter, &exact, &mut stream);
         let mut rows = Vec::new();
         for cycle in 1..=cycles {
-            let bias = Vector2::from_fn(|_, _| turn_on * stream.normal());
+            let bias = noise(&mut stream, turn_on);
             for _ in 0..visits {
                 for (place, at) in setup.coefficients().positions.iter().enumerate() {
-                    let noise = Vector2::from_fn(|_, _| visit * stream.normal());
-                    let current_ma = exact[place] + own[place] - inverse * (bias + noise);
+                    let drift = bias + noise(&mut stream, visit);
+                    let current_ma = exact[place] + own[place] - inverse * drift;
                     rows.push(Reading { cycle, ..Reading::new(at.index, current_ma) });
                 }
             }
@@ -642,23 +626,23 @@ fn coverage(visit: f64, turn_on: f64, stated: bool, cycles: u32, visits: u32, se
 #[test]
 #[ignore = "minutes; `cargo test --release --lib figures_of_coverage -- --ignored --nocapture`"]
 fn figures_of_coverage() {
-    let print = |name: &str, found: [f64; 8]| println!("{name}: {found:.1?}");
-    for (number, noise) in [0.001, 0.002, 0.005].into_iter().enumerate() {
+    let covers = |name: &str, found: [f64; 8], is_due: fn(f64) -> bool| {
+        println!("{name}: {found:.1?}");
+        assert!(found.into_iter().all(is_due), "{name}: {found:?}");
+    };
+    let nearly = |share: f64| (share - 95.0).abs() < 1.0;
+    for (number, visit) in [0.001, 0.002, 0.005].into_iter().enumerate() {
         let seed = 100 + number as u64;
-        let found = coverage(noise, 0.0, true, 1, 1, seed);
-        print(&format!("{noise} deg/h, stated"), found);
-        assert!(found.iter().all(|share| (share - 95.0).abs() < 0.7), "{noise}: {found:?}");
-        let found = coverage(noise, 0.0, false, 1, 3, seed);
-        print(&format!("{noise} deg/h, estimated from 3 visits"), found);
-        assert!(found.iter().all(|share| (share - 95.0).abs() < 1.0), "{noise}: {found:?}");
+        let stated = coverage(visit, 0.0, true, 1, 1, seed);
+        covers(&format!("{visit} deg/h, stated"), stated, |share| (share - 95.0).abs() < 0.7);
+        let estimated = coverage(visit, 0.0, false, 1, 3, seed);
+        covers(&format!("{visit} deg/h, estimated from 3 visits"), estimated, nearly);
     }
     // Neither stated nor shown, the noise is missing from the intervals, which the result says.
-    let found = coverage(0.002, 0.0, false, 1, 1, 101);
-    print("0.002 deg/h, not stated, one visit", found);
-    assert!(found.iter().all(|share| *share < 90.0), "{found:?}");
-    let found = coverage(0.002, 0.01, false, 3, 1, 200);
-    print("turn-ons of 0.01 deg/h, estimated from 3 cycles", found);
-    assert!(found.iter().all(|share| (share - 95.0).abs() < 1.0), "{found:?}");
+    let missing = coverage(0.002, 0.0, false, 1, 1, 101);
+    covers("0.002 deg/h, not stated, one visit", missing, |share| share < 90.0);
+    let of_turn_ons = coverage(0.002, 0.01, false, 3, 1, 200);
+    covers("turn-ons of 0.01 deg/h, estimated from 3 cycles", of_turn_ons, nearly);
 }
 
 /// Expected: NumPy, the model of all visits fitted with and without each of them, by `lstsq`; the tail of F with 2 and
@@ -667,9 +651,11 @@ fn figures_of_coverage() {
 fn a_visit_that_numpy_finds() {
     let meter = InputUncertainty::of_meter(paper_meter());
     let setup = Setup::new(&ideal(), EarthRate::at_astronomic_latitude(LATITUDE_DEG), meter).unwrap();
-    let moved = include_str!("../../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
-    assert_ne!(moved, include_str!("../../../docs/run.csv"));
-    let readings = Readings::from_csv("run.csv", moved.as_bytes(), setup.coefficients(), 1.0).unwrap();
+    let good = include_str!("../../../docs/run.csv");
+    let moved = good.replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+    assert_ne!(moved, good);
+    let [good, readings] =
+        [good, &moved].map(|text| Readings::from_csv("run.csv", text.as_bytes(), setup.coefficients(), 1.0).unwrap());
     let k = Matrix2::new(95.0, 9.5, 9.5, 95.0);
     let unlike = |place: usize, visit: usize| {
         Matrix2::new(1.0, 0.3, 0.3, 2.0) * (1.0 + ((place % 4 + 1) * (visit + 1)) as f64 / 4.0)
@@ -688,8 +674,6 @@ fn a_visit_that_numpy_finds() {
         for (found, expected) in found.iter().zip(difference_ma) {
             assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
         }
-        let good =
-            Readings::from_csv("run.csv", include_bytes!("../../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
         assert!(least_likely(&good, &differences_of(&good, drift), &k, covariance).0 > 0.001);
     }
 }

@@ -2,6 +2,7 @@
 //! platform, seat, base with level and azimuth, latitude, meter. The simulation turns matrices by finite rotations and
 //! knows nothing of the sensitivities.
 
+use super::current;
 use crate::inside::reference::*;
 use dtg_passport::attitude::{self, Deviation};
 use dtg_passport::calibration::parameter::Parameter;
@@ -17,17 +18,6 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 /// The passive turn of coordinates when the axes turn by the vector `turn`: Rz·Ry·Rx is enough for arcseconds.
 fn turned(turn: Vector3<f64>) -> Matrix3<f64> {
     attitude::deviation(&Deviation { alpha_rad: turn.x, beta_rad: turn.y, gamma_rad: turn.z })
-}
-
-/// `position` with Ã in place of its own: E = Ã A⁻¹, and its angles.
-fn with_attitude(position: &Position, actual: &Matrix3<f64>) -> Position {
-    let e = actual * attitude::nominal(position.theta_deg, position.phi_deg).transpose();
-    let deviation = Deviation {
-        alpha_rad: libm::atan2(-e.m32, e.m33),
-        beta_rad: libm::asin(e.m31),
-        gamma_rad: libm::atan2(-e.m21, e.m11),
-    };
-    Position { deviation, ..*position }
 }
 
 fn normal(stream: &mut Stream, u: [f64; 3]) -> Vector3<f64> {
@@ -63,9 +53,7 @@ pub(super) fn read(
         let of_meter = Vector2::from_fn(|_, _| stream.normal());
         for visit in 1..=VISITS {
             let returned = turned(normal(stream, [u.repeatability_rad; 3]));
-            let attitude = returned * platform * real * base;
-            let there = [with_attitude(position, &attitude)];
-            let exact = currents(&setup(&there, latitude_deg), gyro)[0];
+            let exact = current(gyro, &(returned * platform * real * base), latitude_deg);
             for _ in 0..ROWS {
                 let current_ma = exact.zip_map(&of_meter, |j, error| {
                     let own = u.meter.own_variance_ma2(j).sqrt() * error + u.meter.noise_ma * stream.normal();

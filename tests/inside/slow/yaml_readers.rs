@@ -10,7 +10,9 @@ use dtg_passport::text::field::{Scalar, Sink};
 use dtg_passport::text::rule::{self, allowed_in_string};
 use dtg_passport::text::yaml;
 use dtg_passport::text::{Field, Path as At, Problems};
+use serde_json::{Value, json};
 use std::collections::HashSet;
+use std::iter::once;
 use std::path::Path;
 use std::process::Command;
 
@@ -23,131 +25,76 @@ const NASTY_STRINGS: usize = 200;
 /// The seed of the random values: any, but always the same one.
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// What runs it, its program in `tests/readers/`, and what that is told beside the file.
+type Program = (fn() -> Command, &'static str, &'static [&'static str]);
+
 /// One reader of YAML as a laboratory uses it.
 struct Reader {
     name: &'static str,
-    command: fn(&Path) -> Command,
+    program: Program,
     /// Tells whole numbers from others; JavaScript has one type of number.
     has_integers: bool,
 }
 
 const READERS: [Reader; 9] = [
-    Reader { name: "PyYAML, pure", command: |file| python("pyyaml.py", "pure", file), has_integers: true },
-    Reader { name: "PyYAML, C", command: |file| python("pyyaml.py", "c", file), has_integers: true },
-    Reader { name: "ruamel.yaml, safe", command: |file| python("ruamel_yaml.py", "safe", file), has_integers: true },
-    Reader { name: "ruamel.yaml, rt", command: |file| python("ruamel_yaml.py", "rt", file), has_integers: true },
-    Reader { name: "js-yaml", command: |file| node("js_yaml.cjs", "js-yaml", file), has_integers: false },
-    Reader { name: "js-yaml 4", command: |file| node("js_yaml.cjs", "js-yaml-4", file), has_integers: false },
-    Reader { name: "yaml (npm), 1.1", command: |file| node("yaml_npm.cjs", "1.1", file), has_integers: false },
-    Reader { name: "yaml (npm), 1.2", command: |file| node("yaml_npm.cjs", "1.2", file), has_integers: false },
-    Reader { name: "Psych", command: psych, has_integers: true },
+    reader("PyYAML, pure", (programs::python, "pyyaml.py", &["pure"]), true),
+    reader("PyYAML, C", (programs::python, "pyyaml.py", &["c"]), true),
+    reader("ruamel.yaml, safe", (programs::python, "ruamel_yaml.py", &["safe"]), true),
+    reader("ruamel.yaml, rt", (programs::python, "ruamel_yaml.py", &["rt"]), true),
+    reader("js-yaml", (programs::node, "js_yaml.cjs", &["js-yaml"]), false),
+    reader("js-yaml 4", (programs::node, "js_yaml.cjs", &["js-yaml-4"]), false),
+    reader("yaml (npm), 1.1", (programs::node, "yaml_npm.cjs", &["1.1"]), false),
+    reader("yaml (npm), 1.2", (programs::node, "yaml_npm.cjs", &["1.2"]), false),
+    reader("Psych", (programs::ruby, "psych.rb", &[]), true),
 ];
 
-fn program(mut command: Command, program: &str, arguments: &[&str], file: &Path) -> Command {
-    command.arg(programs::project("tests/readers").join(program)).args(arguments).arg(file);
-    command
-}
-
-fn python(name: &str, kind: &str, file: &Path) -> Command {
-    program(programs::python(), name, &[kind], file)
-}
-
-fn node(name: &str, kind: &str, file: &Path) -> Command {
-    program(programs::node(), name, &[kind], file)
-}
-
-fn psych(file: &Path) -> Command {
-    program(programs::ruby(), "psych.rb", &[], file)
+const fn reader(name: &'static str, program: Program, has_integers: bool) -> Reader {
+    Reader { name, program, has_integers }
 }
 
 impl Reader {
-    fn read(&self, file: &Path) -> Vec<Seen> {
-        programs::output((self.command)(file)).lines().map(Seen::told).collect()
-    }
-
-    /// What this reader must make of `document`.
-    fn expected(&self, document: &Node) -> Vec<Seen> {
-        let mut expected = Vec::new();
-        Seen::list(document, &mut expected);
-        if !self.has_integers {
-            for seen in &mut expected {
-                if let Seen::Integer(value) = *seen {
-                    *seen = Seen::Number((value as f64).to_bits());
-                }
-            }
-        }
-        expected
+    /// What its program tells of the file.
+    fn read(&self, file: &Path) -> Vec<Value> {
+        let (language, program, arguments) = self.program;
+        let mut command = language();
+        command.arg(programs::project("tests/readers").join(program)).args(arguments).arg(file);
+        let line = |line: &str| serde_json::from_str(line).unwrap_or_else(|error| panic!("{line}: {error}"));
+        programs::output(command).lines().map(line).collect()
     }
 }
 
-/// What a reader saw, in the order of the text.
-#[derive(Debug, Clone, PartialEq)]
-enum Seen {
-    Map,
-    Key(String),
-    List,
-    End,
-    Null,
-    Bool(bool),
-    Integer(i64),
-    /// The bits of a binary64, so that nothing but the same value is equal.
-    Number(u64),
-    Text(String),
-    /// What no document of this project holds: a date, a symbol, a key that is no text.
-    Other(String),
-}
-
-impl Seen {
-    /// One line of a reader's program.
-    fn told(line: &str) -> Self {
-        let words: Vec<serde_json::Value> =
-            serde_json::from_str(line).unwrap_or_else(|error| panic!("{line}: {error}"));
-        let kind = words[0].as_str().expect("a kind");
-        let word = || words[1].as_str().expect("a word");
-        match kind {
-            "map" => Self::Map,
-            "key" => Self::Key(from_hex(word())),
-            "list" => Self::List,
-            "end" => Self::End,
-            "null" => Self::Null,
-            "bool" => Self::Bool(words[1].as_bool().expect("a boolean")),
-            "integer" => Self::Integer(word().parse().expect("an integer")),
-            "number" => Self::Number(u64::from_str_radix(word(), 16).expect("sixteen hexadecimal digits")),
-            "text" => Self::Text(from_hex(word())),
-            "other" => Self::Other(word().to_owned()),
-            _ => panic!("what is {line}?"),
-        }
-    }
-
-    /// What `node` holds.
-    fn list(node: &Node, seen: &mut Vec<Self>) {
-        match node {
-            Node::Null => seen.push(Self::Null),
-            Node::Bool(value) => seen.push(Self::Bool(*value)),
-            Node::Integer(value) => seen.push(Self::Integer(*value)),
-            Node::Number(value) => seen.push(Self::Number(value.to_bits())),
-            Node::Text(text) => seen.push(Self::Text(text.clone())),
-            Node::List(items) => {
-                seen.push(Self::List);
-                items.iter().for_each(|item| Self::list(item, seen));
-                seen.push(Self::End);
-            }
-            Node::Map(entries) => {
-                seen.push(Self::Map);
-                for (key, value) in entries {
-                    seen.push(Self::Key(key.clone()));
-                    Self::list(value, seen);
-                }
-                seen.push(Self::End);
-            }
+/// What a program tells of a document, line by line; a binary64 by its bits, so that nothing but the same value is equal.
+fn told(document: &Node, has_integers: bool) -> Vec<Value> {
+    let number = |value: f64| vec![json!(["number", format!("{:016x}", value.to_bits())])];
+    let hex = |text: &str| text.bytes().map(|byte| format!("{byte:02x}")).collect::<String>();
+    let listed = |kind: &str, items: &mut dyn Iterator<Item = Value>| {
+        once(json!([kind])).chain(items).chain(once(json!(["end"]))).collect()
+    };
+    match document {
+        Node::Null => vec![json!(["null"])],
+        Node::Bool(value) => vec![json!(["bool", value])],
+        Node::Integer(value) if has_integers => vec![json!(["integer", value.to_string()])],
+        Node::Integer(value) => number(*value as f64),
+        Node::Number(value) => number(*value),
+        Node::Text(text) => vec![json!(["text", hex(text)])],
+        Node::List(items) => listed("list", &mut items.iter().flat_map(|item| told(item, has_integers))),
+        Node::Map(entries) => {
+            let entry = |(key, value): &(String, Node)| once(json!(["key", hex(key)])).chain(told(value, has_integers));
+            listed("map", &mut entries.iter().flat_map(entry))
         }
     }
 }
 
-fn from_hex(digits: &str) -> String {
-    let digit = |byte: u8| char::from(byte).to_digit(16).expect("a hexadecimal digit") as u8;
-    let bytes = digits.as_bytes().chunks_exact(2).map(|pair| digit(pair[0]) << 4 | digit(pair[1])).collect();
-    String::from_utf8(bytes).expect("UTF-8")
+/// A line that was told, with the letters of a text or a key.
+fn readable(line: &Value) -> String {
+    let byte = |digits: &[u8]| u8::from_str_radix(std::str::from_utf8(digits).ok()?, 16).ok();
+    match (line[0].as_str(), line[1].as_str()) {
+        (Some(kind @ ("text" | "key")), Some(digits)) => {
+            let bytes: Option<Vec<u8>> = digits.as_bytes().chunks(2).map(byte).collect();
+            format!("{kind} {:?}", String::from_utf8_lossy(&bytes.unwrap_or_default()))
+        }
+        _ => line.to_string(),
+    }
 }
 
 /// Writes the text where the readers' programs find it.
@@ -196,10 +143,7 @@ fn goes_through_every_reader(name: &str, document: &Node) {
     assert_eq!(rule::check(name, text.as_bytes(), usize::MAX).map_err(|error| error.to_string()), Ok(text.as_str()));
 
     let (own, _) = yaml::tree(name, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
-    let (mut expected, mut found) = (Vec::new(), Vec::new());
-    Seen::list(document, &mut expected);
-    Seen::list(&own, &mut found);
-    assert_same("the library", &expected, &found);
+    assert_same("the library", &told(document, true), &told(&own, true));
     assert_eq!(rule::differs(&text, &canonical::write_bare(&own)), None);
 
     let file = file(name, &text);
@@ -207,16 +151,16 @@ fn goes_through_every_reader(name: &str, document: &Node) {
     std::thread::scope(|scope| {
         for reader in &READERS {
             let file = &file;
-            scope.spawn(move || assert_same(reader.name, &reader.expected(document), &reader.read(file)));
+            scope.spawn(move || assert_same(reader.name, &told(document, reader.has_integers), &reader.read(file)));
         }
     });
 }
 
-fn assert_same(reader: &str, expected: &[Seen], found: &[Seen]) {
+fn assert_same(reader: &str, expected: &[Value], found: &[Value]) {
     let same = expected.iter().zip(found).take_while(|(expected, found)| expected == found).count();
     if same < expected.len().max(found.len()) {
-        let after = expected[..same].iter().rev().find(|seen| matches!(seen, Seen::Key(_)));
-        let (expected, found) = (expected.get(same), found.get(same));
+        let after = expected[..same].iter().rev().find(|line| line[0] == "key").map(readable);
+        let [expected, found] = [expected, found].map(|lines| lines.get(same).map(readable));
         panic!("{reader}: after {after:?} expected {expected:?}, found {found:?}");
     }
 }
@@ -296,20 +240,16 @@ fn numbers_come_back_bit_for_bit() {
 
     let row = |values: &[f64]| Node::List(values.iter().map(|value| Node::Number(*value)).collect());
     let matrix = |values: &[f64]| Node::List(values.chunks(2).map(row).collect());
+    // Of eight values four are in a matrix and four have keys of their own.
+    let chunks = || values.chunks(8).map(|chunk| chunk.split_at(4)).enumerate();
+    let keyed = chunks().flat_map(|(at, (_, rest))| (8 * at..).zip(rest));
+    // As items of a mapping on one line, as a position is written.
+    let position = |(i, pair)| map([("i", Node::Integer(i)), ("j", Node::Integer(-i)), ("omega", row(pair))]);
     let document = map([
         ("first", Node::Integer(1)),
-        ("matrices", map(values.chunks(8).enumerate().map(|(at, chunk)| (format!("m{at}"), matrix(chunk))))),
-        ("values", map(values.iter().enumerate().map(|(at, value)| (format!("v{at}"), Node::Number(*value))))),
-        // As items of a mapping on one line, as a position is written.
-        (
-            "positions",
-            Node::List(
-                (1..=8)
-                    .zip(values.chunks(2))
-                    .map(|(i, pair)| map([("i", Node::Integer(i)), ("j", Node::Integer(-i)), ("omega", row(pair))]))
-                    .collect(),
-            ),
-        ),
+        ("matrices", map(chunks().map(|(at, (of_matrix, _))| (format!("m{at}"), matrix(of_matrix))))),
+        ("values", map(keyed.map(|(at, value)| (format!("v{at}"), Node::Number(*value))))),
+        ("positions", Node::List((1..=8).zip(values.chunks(2)).map(position).collect())),
     ]);
     goes_through_every_reader("numbers", &document);
 }
@@ -445,11 +385,11 @@ fn keys_come_back_as_texts() {
         .filter(|key| may_be_a_key(key) && once.insert(key.clone()))
         .collect();
 
-    let all = |value: &Node| map(keys.iter().map(|key| (key.as_str(), value.clone())));
+    let all = |values: &[Node]| map(keys.iter().map(String::as_str).zip(values.iter().cloned().cycle()));
     let document = map([
         ("first", Node::Integer(1)),
-        ("block", all(&Node::Bool(true))),
-        ("items", Node::List(vec![all(&Node::Bool(false)), all(&text("")), all(&Node::Integer(-7))])),
+        ("block", all(&[Node::Bool(true)])),
+        ("items", Node::List(vec![all(&[Node::Bool(false), text(""), Node::Integer(-7)])])),
         ("empty_list", Node::List(Vec::new())),
         ("empty_map", Node::Map(Vec::new())),
     ]);
@@ -459,19 +399,19 @@ fn keys_come_back_as_texts() {
 /// The traps are real: without the rule these readers give something else, and this test would notice.
 #[test]
 fn what_the_rule_forbids_is_read_differently() {
-    let differently = |reader: &str, yaml: &str, document: Node| {
+    let differently = |reader: &str, key: &str, yaml: &str, value: Node| {
         let reader = READERS.iter().find(|known| known.name == reader).expect("a known reader");
-        let found = reader.read(&file("trap", yaml));
-        assert_ne!(found, reader.expected(&document), "{}: {yaml}", reader.name);
+        let found = reader.read(&file("trap", &format!("{key}: {yaml}\n")));
+        assert_ne!(found, told(&map([(key, value)]), reader.has_integers), "{}: {key}: {yaml}", reader.name);
     };
     for reader in ["PyYAML, pure", "PyYAML, C", "Psych"] {
-        differently(reader, "a: 1e-6\n", map([("a", Node::Number(1e-6))]));
-        differently(reader, "no: 1.0\n", map([("no", Node::Number(1.0))]));
-        differently(reader, "a: 12:30:45\n", map([("a", text("12:30:45"))]));
+        differently(reader, "a", "1e-6", Node::Number(1e-6));
+        differently(reader, "no", "1.0", Node::Number(1.0));
+        differently(reader, "a", "12:30:45", text("12:30:45"));
     }
     for key in ["n", "e1"] {
-        differently("yaml (npm), 1.1", &format!("{key}: 1.0\n"), map([(key, Node::Number(1.0))]));
+        differently("yaml (npm), 1.1", key, "1.0", Node::Number(1.0));
     }
-    differently("PyYAML, C", "a: \"x\u{85}\"\n", map([("a", text("x\u{85}"))]));
-    differently("Psych", "a: 1_000\n", map([("a", text("1_000"))]));
+    differently("PyYAML, C", "a", "\"x\u{85}\"", text("x\u{85}"));
+    differently("Psych", "a", "1_000", text("1_000"));
 }

@@ -14,8 +14,11 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::process::Stdio;
 
+/// Samples of suncal's Monte Carlo.
+const SAMPLES: f64 = 20_000.0;
+
 /// What another program needs to know of a case.
-pub fn described(case: &Case) -> Value {
+fn described(case: &Case) -> Value {
     let u = case.setup.uncertainty();
     let currents = case.readings.means_ma();
     let positions: Vec<Value> = case
@@ -36,6 +39,7 @@ pub fn described(case: &Case) -> Value {
         })
         .collect();
     json!({
+        "samples": SAMPLES,
         "latitude": radians_from_degrees(case.latitude_deg),
         "rate": dtg_passport::earth::rotation_deg_per_h(),
         "positions": positions,
@@ -48,24 +52,29 @@ pub fn described(case: &Case) -> Value {
     })
 }
 
-/// What the Python script of that name says of a case.
-pub fn asked(script: &str, case: &Value) -> Value {
+/// What the Python script of that name says of each case.
+fn asked(script: &str, cases: &[Case]) -> Vec<Value> {
     let mut python = programs::python();
     python.arg(programs::project(&format!("tests/inside/slow/uncertainty/{script}")));
     let mut child = python.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("Python runs");
-    child.stdin.take().expect("a pipe").write_all(case.to_string().as_bytes()).expect("it reads");
+    let described: Value = cases.iter().map(described).collect();
+    child.stdin.take().expect("a pipe").write_all(described.to_string().as_bytes()).expect("it reads");
     let output = child.wait_with_output().expect("it ends");
     assert!(output.status.success(), "{script} failed");
     serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn budget(case: &Case, method: Method) -> Budget {
+    Budget::new(&case.setup, &case.readings, method, &Options::default()).unwrap()
 }
 
 /// Expected: GTC's covariances (automatic differentiation), 1e-9 of the two standard deviations; its degrees of freedom.
 #[test]
 fn covariances_are_those_of_gtc() {
     let (mut worst, mut of_freedom) = (0.0_f64, 0.0_f64);
-    for case in three() {
-        let theirs = asked("gtc_budget.py", &described(&case));
-        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
+    let cases = three();
+    for (case, theirs) in cases.iter().zip(asked("gtc_budget.py", &cases)) {
+        let budget = budget(case, Method::Analytic);
         let (ours, due) = (budget.covariance(), numbers(&theirs["covariance"]));
         for row in 0..8 {
             for column in 0..8 {
@@ -91,7 +100,7 @@ fn a_budget_adds_up_to_the_uncertainty_of_the_calibration() {
     for case in three() {
         let calibration = calibrate(&case.setup, &case.readings, &Options::default()).unwrap();
         for result in &calibration.results {
-            let budget = Budget::new(&case.setup, &case.readings, result.method, &Options::default()).unwrap();
+            let budget = budget(&case, result.method);
             let covariance = budget.covariance();
             for (row, line) in budget.parameters.iter().enumerate() {
                 let u = result.standard_uncertainty(line.parameter).unwrap();
@@ -142,23 +151,11 @@ fn the_sentence_is_computed() {
 /// Expected: suncal's Monte Carlo, within five standard errors of a standard deviation, u/√(2n).
 #[test]
 fn uncertainties_are_those_of_suncal() {
-    let samples = 20_000.0_f64;
-    let cases = three();
-    let described: Vec<Value> = cases
-        .iter()
-        .map(|case| {
-            let mut described = described(case);
-            described["samples"] = json!(samples);
-            described
-        })
-        .collect();
-    let theirs = asked("suncal_budget.py", &json!(described));
-    let mut worst: f64 = 0.0;
-    for (case, theirs) in cases.iter().zip(theirs.as_array().expect("a list")) {
-        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
-        for (place, line) in budget.parameters.iter().enumerate() {
+    let (cases, mut worst) = (three(), 0.0_f64);
+    for (case, theirs) in cases.iter().zip(asked("suncal_budget.py", &cases)) {
+        for (place, line) in budget(case, Method::Analytic).parameters.iter().enumerate() {
             let ratio = theirs[place].as_f64().unwrap() / line.standard_uncertainty - 1.0;
-            worst = worst.max(ratio.abs() * (2.0 * samples).sqrt());
+            worst = worst.max(ratio.abs() * (2.0 * SAMPLES).sqrt());
         }
     }
     println!("largest difference from suncal: {worst:.1} standard errors of its Monte Carlo");

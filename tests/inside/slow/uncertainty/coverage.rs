@@ -1,11 +1,12 @@
 //! Whether stated 95 % intervals hold the truth in 95 % of cases: simulated stands, certified and then used.
 
+use super::super::{current, least_squares_only, shares as of_trials};
 use crate::inside::reference::*;
-use crate::inside::simulated_stands::{angles, header, normal, turn};
-use dtg_passport::attitude::{Deviation, actual, nominal};
+use crate::inside::simulated_stands::{ARCSEC, Truth, csv, header, normal, read, turn};
+use dtg_passport::attitude::{Deviation, actual};
 use dtg_passport::calibration::{InputUncertainty, Method, NotStated, Options, Setup, calibrate};
-use dtg_passport::certification::{AngleReadings, Header, certify};
-use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
+use dtg_passport::certification::{Header, certify};
+use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::gyro::GyroParameters;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::issue::{Issue, draft};
@@ -13,7 +14,7 @@ use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::signing::allowed_signers_line;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
-use dtg_passport::statistics::random::{Run, Stream};
+use dtg_passport::statistics::random::Stream;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 use dtg_passport::uncertainty::Budget;
 use dtg_passport::units::radians_from_arcseconds;
@@ -86,23 +87,13 @@ impl Files {
     }
 
     /// A stand that was measured in `runs` runs, as `certify`, `issue`, `verify` and `calibrate` pass it on.
-    fn certified(&self, stream: &mut Stream, real: &[Position], runs: u32) -> Setup {
-        let mut each = vec![Vec::new(); real.len()];
-        for _ in 0..runs {
-            let (platform, base) = (small_turn(stream, OF_A_RUN), small_turn(stream, OF_A_RUN));
-            for (read, at) in each.iter_mut().zip(real) {
-                let attitude = small_turn(stream, RETURN) * platform * attitude_of(at) * base;
-                read.push(angles(&(attitude * nominal(at.theta_deg, at.phi_deg).transpose())));
-            }
-        }
-        let mut csv = "i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n".to_owned();
-        for (at, read) in real.iter().zip(&each) {
-            let PositionIndex { i, j } = at.index;
-            for (run, angles) in (1..).zip(read) {
-                csv += &format!("{i},{j},{run},{:.4},{:.4},{:.4}\n", angles.x, angles.y, angles.z);
-            }
-        }
-        let readings = AngleReadings::from_csv("angles.csv", csv.as_bytes(), &self.header.positions).expect("readings");
+    fn certified(&self, stream: &mut Stream, real: &[Position], runs: usize) -> Setup {
+        let angles_arcsec = std::array::from_fn(|place| {
+            let Deviation { alpha_rad, beta_rad, gamma_rad } = real[place].deviation;
+            Vector3::new(alpha_rad, beta_rad, gamma_rad) / ARCSEC
+        });
+        let truth = Truth { angles_arcsec, own: [RETURN; 3], platform: OF_A_RUN, base: OF_A_RUN };
+        let readings = read(&csv(&truth.measured(stream, runs)));
         let text = certify(&self.header, &readings).expect("runs that scatter").to_yaml("stand.yaml").expect("a stand");
         let stand = Stand::from_yaml("stand.yaml", text.as_bytes()).expect("a stand file");
         let order = Issue::first("factory@example.org", self.time);
@@ -123,12 +114,10 @@ impl Files {
         let seat = self.laboratory.seating_arcsec.as_ref().expect("a seat");
         let seat = turn(normal(stream, [seat.about_x, seat.about_y, seat.about_z]));
         let base = turn(Vector3::new(0.0, 0.0, 8.0 * stream.normal()));
-        let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
-        let rate = Vector3::new(0.0, earth.horizontal_deg_per_h, earth.vertical_deg_per_h);
         let meter = &self.laboratory.meter;
         let each = real.iter().map(|at| {
             let attitude = small_turn(stream, RETURN) * seat * attitude_of(at) * base;
-            current(gyro, &attitude, rate)
+            current(gyro, &attitude, LATITUDE_DEG)
                 .map(|j| j * (1.0 + meter.reading_percent / 100.0 * stream.normal()) + meter.floor_ma * stream.normal())
         });
         each.collect()
@@ -143,16 +132,9 @@ fn small_turn(stream: &mut Stream, sigma_arcsec: f64) -> Matrix3<f64> {
     turn(normal(stream, [sigma_arcsec; 3]))
 }
 
-/// The current of a gyro there: K J = ω_3 − ω_0 − ω_n n.
-fn current(gyro: &GyroParameters, attitude: &Matrix3<f64>, rate: Vector3<f64>) -> Vector2<f64> {
-    let torqued =
-        (attitude * rate).xy() - gyro.omega0_deg_per_h - gyro.omega_n_deg_per_h_per_g() * attitude.column(2).xy();
-    gyro.k_deg_per_h_per_ma.try_inverse().expect("K has an inverse") * torqued
-}
-
 /// Of one pair, a stand certified from `runs` runs (`None`: its uncertainty is known) and a gyro calibrated on it: for
 /// every parameter whether the interval holds the truth; then whether chi-square is improbable at 5 % and at 1 %.
-fn pair(files: &Files, stream: &mut Stream, runs: Option<u32>) -> [bool; 10] {
+fn pair(files: &Files, stream: &mut Stream, runs: Option<usize>) -> [bool; 10] {
     let real = drawn_stand(stream, 5.0);
     let setup = match runs {
         None => files.known(stream, &real),
@@ -162,8 +144,8 @@ fn pair(files: &Files, stream: &mut Stream, runs: Option<u32>) -> [bool; 10] {
     let readings = readings(&setup, &files.currents(stream, &real, &gyro));
     let budget =
         Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).expect("eight good positions");
-    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
-    let probability = calibrate(&setup, &readings, &options).expect("a result").results[0].chi_square.probability;
+    let probability =
+        calibrate(&setup, &readings, &least_squares_only()).expect("a result").results[0].chi_square.probability;
     let due = gyro.to_vector();
     std::array::from_fn(|place| match place {
         8 => probability < 0.05,
@@ -176,18 +158,9 @@ fn pair(files: &Files, stream: &mut Stream, runs: Option<u32>) -> [bool; 10] {
 }
 
 /// Shares of `pairs` pairs in percent: coverage of every parameter, then of improbable fits.
-fn shares(pairs: u64, runs: Option<u32>) -> [f64; 10] {
+fn shares(pairs: u64, runs: Option<usize>) -> [f64; 10] {
     let files = Files::new();
-    let blocks = Run::new(pairs, 31).blocks(|stream, pairs| {
-        let mut counts = [0_u64; 10];
-        for _ in 0..pairs {
-            counts.iter_mut().zip(pair(&files, stream, runs)).for_each(|(count, is)| *count += u64::from(is));
-        }
-        counts
-    });
-    let mut counts = [0; 10];
-    blocks.iter().flat_map(|block| block.iter().enumerate()).for_each(|(place, count)| counts[place] += count);
-    let shares = counts.map(|count| 100.0 * count as f64 / pairs as f64);
+    let shares = of_trials(pairs, 31, |stream| pair(&files, stream, runs));
     let of = runs.map_or("known uncertainties".to_owned(), |runs| format!("{runs} runs"));
     println!("{of}: coverage {:.1?} %; chi-square below 5 %, 1 %: {:.1?} %", &shares[..8], &shares[8..]);
     shares

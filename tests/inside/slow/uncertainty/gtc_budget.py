@@ -1,15 +1,14 @@
 """A calibration in GTC: standard uncertainties, covariances, degrees of freedom by its own automatic derivatives.
 
-Reads one case (JSON) from standard input: positions, Earth rate, inputs with their uncertainties, currents. Writes the
-covariance of the parameters of the closed solution, and their effective degrees of freedom. Nothing here knows how the
-program computes its derivatives.
+Reads a list of cases (JSON) from standard input: positions, Earth rate, inputs with their uncertainties, currents. Writes
+for each the covariance of the parameters of the closed solution, and their effective degrees of freedom. Nothing here
+knows how the program computes its derivatives.
 """
 import json
 import sys
 
 from GTC import cos, dof, get_covariance, sin, ureal
 
-case = json.load(sys.stdin)
 INFINITY = float("inf")
 
 
@@ -49,19 +48,17 @@ def rz(angle):
     return [[cos(angle), sin(angle), 0.0], [-sin(angle), cos(angle), 0.0], [0.0, 0.0, 1.0]]
 
 
-u = case["u"]
-platform = turn(*(quantity(0.0, u["platform"]) for _ in "xyz"))
-seat = turn(*(quantity(0.0, s) for s in u["seat"]))
-base = turn(*(quantity(0.0, u["base"]) for _ in "xyz"))
-level = turn(quantity(0.0, u["level"]), quantity(0.0, u["level"]), quantity(0.0, u["azimuth"]))
-latitude = quantity(case["latitude"], u["latitude"]) + quantity(0.0, u["deflection"])
-rate = case["rate"]
-earth = [[0.0], [rate * cos(latitude)], [rate * sin(latitude)]]
-gain = 1.0 + quantity(0.0, u["gain"])
-offset = quantity(0.0, u["offset"])
-
-
-def solve():
+def solve(case):
+    u = case["u"]
+    platform = turn(*(quantity(0.0, u["platform"]) for _ in "xyz"))
+    seat = turn(*(quantity(0.0, s) for s in u["seat"]))
+    base = turn(*(quantity(0.0, u["base"]) for _ in "xyz"))
+    level = turn(quantity(0.0, u["level"]), quantity(0.0, u["level"]), quantity(0.0, u["azimuth"]))
+    latitude = quantity(case["latitude"], u["latitude"]) + quantity(0.0, u["deflection"])
+    rate = case["rate"]
+    earth = [[0.0], [rate * cos(latitude)], [rate * sin(latitude)]]
+    gain = 1.0 + quantity(0.0, u["gain"])
+    offset = quantity(0.0, u["offset"])
     n, omega, j = [], [], []
     for at in case["positions"]:
         angles = [quantity(a, s, at["df"]) for a, s in zip(at["angles"], at["u"])]
@@ -103,23 +100,24 @@ def covariance(numbers):
     return [[get_covariance(a, b) for b in numbers] for a in numbers]
 
 
-n, omega, j = solve()
-delta, b, c, n2_inverse = passport(n, omega)
-j1, j2 = differences(j)
-k = matrix(b, inverse(minus(j1, matrix(j2, delta))))
-wn = minus(c, matrix(matrix(k, j2), n2_inverse))
-omega0 = []
-for axis in range(2):
-    terms = []
-    for at, w, current in zip(n, omega, j):
-        kj = k[axis][0] * current[0] + k[axis][1] * current[1]
-        terms.append(w[axis] - kj - wn[axis][0] * at[0] - wn[axis][1] * at[1])
-    omega0.append(sum(terms, 0.0) / len(terms))
-parameters = flat(k) + omega0 + [(wn[0][0] + wn[1][1]) / 2, (wn[1][0] - wn[0][1]) / 2]
-json.dump(
-    {
+def budget(case):
+    n, omega, j = solve(case)
+    delta, b, c, n2_inverse = passport(n, omega)
+    j1, j2 = differences(j)
+    k = matrix(b, inverse(minus(j1, matrix(j2, delta))))
+    wn = minus(c, matrix(matrix(k, j2), n2_inverse))
+    omega0 = []
+    for axis in range(2):
+        terms = []
+        for at, w, current in zip(n, omega, j):
+            kj = k[axis][0] * current[0] + k[axis][1] * current[1]
+            terms.append(w[axis] - kj - wn[axis][0] * at[0] - wn[axis][1] * at[1])
+        omega0.append(sum(terms, 0.0) / len(terms))
+    parameters = flat(k) + omega0 + [(wn[0][0] + wn[1][1]) / 2, (wn[1][0] - wn[0][1]) / 2]
+    return {
         "covariance": covariance(parameters),
         "degrees_of_freedom": [d if (d := dof(p)) < 1e300 else None for p in parameters],
-    },
-    sys.stdout,
-)
+    }
+
+
+json.dump([budget(case) for case in json.load(sys.stdin)], sys.stdout)

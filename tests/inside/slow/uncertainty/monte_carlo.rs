@@ -3,7 +3,9 @@
 use super::cases::{Case, three};
 use crate::inside::reference::*;
 use dtg_passport::attitude::{self, Deviation};
-use dtg_passport::calibration::{Cause, InputUncertainty, Method, Model, Options, analytic, least_squares};
+use dtg_passport::calibration::{
+    Cause, InputUncertainty, Method, Model, Options, Readings, Setup, analytic, least_squares,
+};
 use dtg_passport::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, PositionCoefficients, pair_differences};
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::engine::{BASE_AT_SITE, BLOCK, Engine};
@@ -78,6 +80,12 @@ fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec
     (Coefficients { positions, matrices: Some(matrices) }, currents)
 }
 
+/// What draws the trials of a calibration, and its first order.
+fn both(setup: &Setup, readings: &Readings, method: Method) -> (Engine, Budget) {
+    let engine = Engine::new(setup, readings, method).unwrap();
+    (engine, Budget::new(setup, readings, method, &Options::default()).unwrap())
+}
+
 /// Standard deviates of as many trials as run side by side.
 fn deviates(engine: &Engine, seed: u64, factor: f64) -> Vec<Vec<f64>> {
     let mut stream = Stream::new(seed);
@@ -128,8 +136,7 @@ fn the_refit_is_that_of_least_squares() {
     let setup = with_uncertainty(&case.positions, case.latitude_deg, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
     let case = Case { setup, readings, positions: case.positions.clone(), ..*case };
-    let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares).unwrap();
-    let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
+    let (engine, budget) = both(&case.setup, &case.readings, Method::LeastSquares);
     let trials = deviates(&engine, 5, 1.0);
     for (trial, found) in trials.iter().zip(engine.computation.solutions_for(&trials)) {
         let (coefficients, currents) = exactly(&case, &engine, trial);
@@ -148,8 +155,7 @@ fn fixed(trials: u64, threads: usize) -> Trials<'static> {
 fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let case = &three()[1];
     for method in [Method::Analytic, Method::LeastSquares] {
-        let engine = Engine::new(&case.setup, &case.readings, method).unwrap();
-        let budget = Budget::new(&case.setup, &case.readings, method, &Options::default()).unwrap();
+        let (engine, budget) = both(&case.setup, &case.readings, method);
         let one = monte_carlo(&engine, &budget, &fixed(7 * BLOCK - 5, 1));
         assert_eq!((one.trials, one.failed), (7 * BLOCK, 0));
         for threads in [0, 2, 5] {
@@ -171,8 +177,7 @@ fn first_order_and_monte_carlo_agree() {
         case.readings.means_ma().iter().map(|current| current.map(|j| j * (1.0 + 8.7e-5 * stream.normal()))).collect();
     let readings = readings(&case.setup, &noisy);
     for method in [Method::Analytic, Method::LeastSquares] {
-        let engine = Engine::new(&case.setup, &readings, method).unwrap();
-        let budget = Budget::new(&case.setup, &readings, method, &Options::default()).unwrap();
+        let (engine, budget) = both(&case.setup, &readings, method);
         let found = monte_carlo(&engine, &budget, &fixed(1_000_000, 2));
         let (mut of_u, mut of_ends) = (0.0_f64, 0.0_f64);
         let covariance = budget.covariance();
@@ -215,8 +220,7 @@ fn few_degrees_of_freedom_are_drawn_as_such() {
     uncertainty.angles_degrees_of_freedom = vec![6.0; 8];
     let setup = with_uncertainty(&three()[1].positions, LATITUDE_DEG, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
-    let engine = Engine::new(&setup, &readings, Method::Analytic).unwrap();
-    let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
+    let (engine, budget) = both(&setup, &readings, Method::Analytic);
     let found = monte_carlo(&engine, &budget, &fixed(400_000, 2));
     for (line, trials) in budget.parameters.iter().zip(&found.parameters) {
         let ratio = trials.standard_uncertainty / line.standard_uncertainty / (6.0_f64 / 4.0).sqrt();
@@ -230,8 +234,7 @@ fn trials_go_on_until_digits_are_stable() {
     // u(K_x) and so on chosen by the meter: the first digits decide how many trials that takes.
     let setup = setup(&three()[0].positions, LATITUDE_DEG);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
-    let engine = Engine::new(&setup, &readings, Method::Analytic).unwrap();
-    let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
+    let (engine, budget) = both(&setup, &readings, Method::Analytic);
     let found = monte_carlo(&engine, &budget, &Trials { threads: 2, ..Trials::adaptive(3) });
     println!("{} trials", found.trials);
     assert!(found.stable && found.failed == 0);
@@ -246,8 +249,7 @@ fn trials_go_on_until_digits_are_stable() {
 #[test]
 fn many_trials_tell_how_far_they_are() {
     let case = &three()[0];
-    let engine = Engine::new(&case.setup, &case.readings, Method::Analytic).unwrap();
-    let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
+    let (engine, budget) = both(&case.setup, &case.readings, Method::Analytic);
     let (cancel, told) = (AtomicBool::new(false), Mutex::new(Vec::new()));
     let progress = |done: u64, due: u64| {
         told.lock().unwrap().push((done, due));
