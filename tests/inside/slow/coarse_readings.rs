@@ -23,9 +23,9 @@ fn in_steps(readings: &AngleReadings, step: f64) -> AngleReadings {
     AngleReadings::new(readings.runs.clone(), each).unwrap()
 }
 
-/// The stands of each kind: of figures.md are 200.
+/// The stands of each kind.
 fn stands() -> u64 {
-    super::trials(100)
+    super::trials(200)
 }
 
 /// figures.md: certificates of fine readings that scatter by 0.2″, and checks in steps of 1″ and 10″: expected at most 3 %

@@ -18,7 +18,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 /// Trials of each kind. The figures of docs/development/reproduction.md:
 /// `DTG_TRIALS=10000 cargo test --release --lib inside::slow::diagnosis -- --nocapture`.
 fn trials() -> u64 {
-    super::trials(200)
+    super::trials(500)
 }
 
 fn solve(setup: &Setup, currents_ma: &[Vector2<f64>]) -> Calibration {
@@ -433,7 +433,7 @@ fn turned_in_seat(stream: &mut Stream, stand: &[Position], gyro: &GyroParameters
 #[test]
 fn a_turned_gyro_and_a_turned_base_are_recognised() {
     let mut stream = Stream::new(25);
-    for _ in 0..trials().min(1_000) / 20 {
+    for _ in 0..trials().min(1_000) / 25 {
         let stand = drawn_stand(&mut stream, 3.0);
         let gyro = good_gyro(&mut stream, LATITUDE_DEG);
         for by_deg in [90.0, 180.0, 270.0] {

@@ -315,10 +315,9 @@ const DESIGNS: [([u32; 3], usize); 5] =
 /// Digits with which the visits of [`run`] hardly differ.
 const COARSE: [([u32; 3], usize); 3] = [([1, 2, 1], 4), ([1, 4, 1], 4), ([1, 2, 10], 4)];
 
-/// Good runs of each kind. Of 2000 two or four are expected to have a suspect; more than 12 have a probability below 1e-3. There
-/// are at most three, and of 500 none or one.
+/// Good runs of each kind. Of 1000 one or two are expected to have a suspect; more than six have a probability below 1e-2.
 fn good_runs() -> u64 {
-    super::trials(500)
+    super::trials(1_000)
 }
 
 /// Good readings are suspect as rarely as the probability says: 0.1 % for the visits, and again for the rows.

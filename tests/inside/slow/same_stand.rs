@@ -74,8 +74,7 @@ fn figures_of_the_common_turn() {
 
 #[test]
 fn the_same_stand_passes_and_a_turned_one_does_not() {
-    // The figures of figures.md are those of 200.
-    let trials = super::trials(100);
+    let trials = super::trials(200);
     for runs in [(5, 1), (5, 3), (3, 2)] {
         let (same, chance) = taken_for_the_same(&quiet(), runs, 0.0, trials, 3);
         let (refused, turned) = (trials - same, trials - chance);
