@@ -2,9 +2,10 @@
 
 use super::failure::Failure;
 use super::output::{Format, set_languages};
-use super::{Cli, UNUSABLE, defaults, help, output};
+use super::{Cli, UNUSABLE, defaults, help, open_workspace, output};
 use crate::text::{printable, shown};
-use clap::error::ContextKind;
+use crate::workspace::WORKSPACE_FILE;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{FromArgMatches, ValueEnum};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -44,9 +45,15 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<(Cli, Vec<String>), 
         let written = output::own(&help.render().ansi().to_string());
         return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));
     }
-    Failure::usage(words(refused.as_ref().unwrap_or(&error))).print();
+    let advice = refused.as_ref().map(advice).unwrap_or_default();
+    Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice).print();
     match refused {
-        Some(refused) => output::usage(&refused.render().ansi().to_string()),
+        Some(refused) => {
+            output::usage(&refused.render().ansi().to_string());
+            if !advice.is_empty() {
+                output::complain(advice.trim_start());
+            }
+        }
         None => output::complain(&printable(error)),
     }
     Err(ExitCode::from(UNUSABLE))
@@ -71,6 +78,48 @@ fn words(error: &clap::Error) -> String {
     let words = error.render().to_string();
     let words = words.trim_end();
     words.strip_prefix("error: ").unwrap_or(words).split('\n').map(printable).collect::<Vec<_>>().join("\n")
+}
+
+/// Meaning and source of each option that is often missing.
+const MISSING: [(&str, &str); 4] = [
+    (
+        "--trust",
+        "--trust lists the keys that you trust: the allowed_signers file that the factory gave you, or that `keygen` \
+         printed a line for. Give the file, set DTG_PASSPORT_TRUST, or specify a workspace.",
+    ),
+    (
+        "--key",
+        "--key is the private key that signs: `dtg-passport keygen KEY` creates one. Give the file, set \
+         DTG_PASSPORT_KEY, or specify a workspace.",
+    ),
+    (
+        "--identity",
+        "--identity is the issuer: the name before your key in allowed_signers. Give it, set DTG_PASSPORT_IDENTITY, or \
+         specify a workspace.",
+    ),
+    ("--site", "--site describes the site: `dtg-passport new site FILE` writes a template."),
+];
+
+/// Returns, for missing options, what they are; otherwise an empty text.
+fn advice(error: &clap::Error) -> String {
+    if error.kind() != ErrorKind::MissingRequiredArgument {
+        return String::new();
+    }
+    let Some(ContextValue::Strings(missing)) = error.get(ContextKind::InvalidArg) else { return String::new() };
+    let is_missing = |option: &str| {
+        let mut words = missing.iter().flat_map(|argument| argument.split(|c: char| " <>|".contains(c)));
+        words.any(|word| word == option)
+    };
+    // Where a workspace is specified, it lacks the value.
+    let here = |option: &str, words: &str| match open_workspace::workspace() {
+        Some(workspace) => {
+            let file = shown(&workspace.root.join(WORKSPACE_FILE)).to_string();
+            words.replace("specify a workspace", &format!("state `{}` in {file}", option.trim_start_matches('-')))
+        }
+        None => words.to_owned(),
+    };
+    let missing = MISSING.iter().filter(|(option, _)| is_missing(option));
+    missing.map(|(option, words)| format!("\n{}", here(option, words))).collect()
 }
 
 /// Returns the format that the arguments ask for, parsed or not: that of failures too.
