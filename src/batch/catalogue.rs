@@ -22,6 +22,9 @@ pub(crate) trait Listed: Sized + Send {
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable>;
 
     fn id(&self) -> String;
+
+    /// Returns a remark on the name of the file, or `None` if it is as expected.
+    fn remark(&self, path: &Path) -> Option<String>;
 }
 
 impl Listed for Stand {
@@ -34,6 +37,12 @@ impl Listed for Stand {
 
     fn id(&self) -> String {
         self.stand.id()
+    }
+
+    fn remark(&self, path: &Path) -> Option<String> {
+        let name = path.file_name()?;
+        let other = ["stand.yaml", "stand.yml"].iter().any(|usual| name.eq_ignore_ascii_case(usual));
+        (other && name != "stand.yaml").then(|| "is read as stand.yaml; rename it to stand.yaml".to_owned())
     }
 }
 
@@ -48,6 +57,12 @@ impl Listed for Site {
     fn id(&self) -> String {
         self.id.to_string()
     }
+
+    fn remark(&self, path: &Path) -> Option<String> {
+        let other_id = path.file_stem().is_some_and(|stem| stem != self.id.as_str());
+        let other_kind = path.extension().is_some_and(|extension| extension != "yaml");
+        (other_id || other_kind).then(|| format!("file name and id differ; expected {}.yaml", self.id))
+    }
 }
 
 /// Files of a batch by their ids. Two files with one id and different content are both skipped, because the program
@@ -59,7 +74,7 @@ pub(crate) struct Catalogue<T> {
 }
 
 impl<T: Listed> Catalogue<T> {
-    /// Reads the files that the arguments name, and passes remarks on duplicates to `tell`; also returns the failures.
+    /// Reads the files that the arguments name, and passes remarks on them to `tell`; also returns the failures.
     pub(crate) fn read(
         arguments: &[PathBuf],
         list: &mut dyn BufRead,
@@ -117,17 +132,21 @@ struct Seen<T> {
 
 impl<T: Listed> Draft<T> {
     fn add(&mut self, path: PathBuf, value: T, hash: [u8; 32], tell: Listener) {
+        let file = name_of(&path);
         let id = value.id();
         if let Some(why) = self.differs_in_case(&path, &id) {
             return self.failures.push(Failure::refused(&path, why));
         }
         match self.names.get(&id.to_ascii_lowercase()) {
             Some(&(_, first)) if self.listed[first].hash == hash => {
-                let (file, words) = (name_of(&path), format!("duplicate of {} {id}, used once", T::NAME));
+                let words = format!("duplicate of {} {id}, used once", T::NAME);
                 tell(Event::Remark { file, words, is_warning: false });
             }
             Some(&(_, first)) => self.listed[first].others.push(path),
             None => {
+                if let Some(words) = value.remark(&path) {
+                    tell(Event::Remark { file, words, is_warning: false });
+                }
                 for name in names(&id) {
                     self.names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), self.listed.len()));
                 }

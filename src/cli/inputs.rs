@@ -2,6 +2,7 @@
 
 use super::output::language;
 use super::{Code, Failure, output};
+use crate::batch::catalogue::Listed as _;
 use crate::batch::deliveries::Deliveries;
 use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
@@ -14,7 +15,7 @@ use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
-use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, shown};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -48,8 +49,13 @@ pub(super) fn deliveries(path: &Path) -> Result<Deliveries, Failure> {
     document(path, "a table of deliveries (CSV)", Deliveries::read)
 }
 
+/// Reads a site file, and remarks on a file that has not the name of its site.
 pub(super) fn site(path: &Path) -> Result<Site, Failure> {
-    document(path, Kind::Site.words(), Site::from_yaml)
+    let site = document(path, Kind::Site.words(), Site::from_yaml)?;
+    if let Some(words) = site.remark(path) {
+        output::say(&format!("{}: {words}", shown(path)));
+    }
+    Ok(site)
 }
 
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
