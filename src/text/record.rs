@@ -230,7 +230,7 @@ impl Field for f64 {
             ("_deg_per_h_per_ma", "in degrees per hour per milliampere"),
             ("_deg_per_h", "in degrees per hour"),
             ("_arcsec", "in arcseconds"),
-            ("_deg", "in degrees"),
+            ("_deg", "in decimal degrees"),
             ("_ma", "in milliamperes"),
             ("_m_per_s2", "in metres per second squared"),
             ("_m", "in metres"),
