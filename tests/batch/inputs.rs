@@ -1,6 +1,6 @@
 //! What a batch is given: folders, patterns, lists, parts of a job; and what is bad among it.
 
-use crate::workshop::{SIGN, Said, Workshop, site, snapshot, snapshot_of_passports};
+use crate::workshop::{SIGN, Said, Workshop, site};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
@@ -20,11 +20,11 @@ fn of_ten_thousand_sites_one_bad_latitude_costs_one_passport() {
     assert_eq!(ids.len(), 9_999);
     assert!(!ids.contains("SPS-2/0000/site-04321/1"));
     // Corrected and run again, it issues the one that is missing and touches nothing else.
-    let before = snapshot_of_passports(&workshop.path("passports"));
+    let before = workshop.snapshot_of_passports("passports");
     workshop.write("sites/site-04321.yaml", &site("site-04321", 4321));
     let said = workshop.run(&format!("issue stands --site sites/site-04*.yaml {SIGN} --no-sync"), 0);
     assert_eq!(said.results, "● issued 1, unchanged 999, refused 0\n");
-    let after = snapshot_of_passports(&workshop.path("passports"));
+    let after = workshop.snapshot_of_passports("passports");
     let new: Vec<_> = after.difference(&before).collect();
     assert!(new.len() == 1 && new[0].0.ends_with("SPS-2/0000/site-04321-1.yaml") && before.is_subset(&after));
 }
@@ -54,13 +54,13 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     workshop.write("sites/other.yaml", &site("site-00001", 999));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     let why = "sites/other.yaml: has the id site-00001, like sites/site-00001.yaml, but different content; keep one file (passports not issued: 2)";
-    assert!(said.words.contains(why), "{}", said.words);
+    said.says(why);
     assert_eq!(said.ids("issued").len(), 4);
     assert!(workshop.sound("passports").iter().all(|id| !id.contains("site-00001")));
     // The same bytes twice are one site.
     workshop.write("sites/other.yaml", &site("site-00001", 1));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
-    assert!(said.words.contains("sites/site-00001.yaml: duplicate of site site-00001, used once"), "{}", said.words);
+    said.says("sites/site-00001.yaml: duplicate of site site-00001, used once");
     assert_eq!(workshop.sound("passports").len(), 6);
     // A site copied two hundred times without a new id is named by its first files.
     for number in 0..200 {
@@ -69,7 +69,7 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     let others = "copy-001.yaml, sites/copy-002.yaml, sites/copy-003.yaml, sites/copy-004.yaml, sites/copy-005.yaml";
     let why = format!("sites/copy-000.yaml: has the id site-00002, like sites/{others} and 195 more, but different");
-    assert!(said.words.contains(&why), "{}", said.words);
+    said.says(&why);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn links_lead_nowhere_and_nothing_is_written_through_them() {
     fs::create_dir(workshop.path("out/SPS-2/0000")).unwrap();
     symlink(workshop.path("nowhere"), workshop.path("out/SPS-2/0000/site-00000-1.yaml")).unwrap();
     let said = workshop.run(&format!("issue stands/0000 --site sites/site-00000.yaml {SIGN} --out out"), 1);
-    assert!(said.words.contains("site-00000-1.yaml: is a link"), "{}", said.words);
+    said.says("site-00000-1.yaml: is a link");
 }
 
 #[test]
@@ -100,16 +100,12 @@ fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
     let workshop = Workshop::new(2, 2);
     workshop.run(&format!("issue stands/0000 --site sites {SIGN}"), 0);
     fs::create_dir(workshop.path("passports/SPS-2/0001")).unwrap();
-    let file = |stand: &str| workshop.path(&format!("passports/SPS-2/{stand}/site-00001-1.yaml"));
+    let file = |stand: &str| workshop.path(format!("passports/SPS-2/{stand}/site-00001-1.yaml"));
     fs::copy(file("0000"), file("0001")).unwrap();
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (2, 1));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0001/site-00001/1".to_owned()]));
-    assert!(
-        said.words.contains("already exists with different content (stand serial '0000' -> '0001')"),
-        "{}",
-        said.words
-    );
+    said.says("already exists with different content (stand serial '0000' -> '0001')");
     assert_eq!(fs::read(file("0000")).unwrap(), fs::read(file("0001")).unwrap());
 }
 
@@ -121,7 +117,7 @@ fn a_name_in_another_unicode_form_is_refused_with_its_place() {
     // The file's own name may be in any form.
     workshop.write("sites/Mu\u{308}nchen.yaml", &site("muenchen", 2));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
-    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found character U+0308"), "{}", said.words);
+    said.says("sites/koeln.yaml:3:7: name: found character U+0308");
     let issued = ["SPS-2/0000/muenchen/1", "SPS-2/0000/site-00000/1"].map(str::to_owned);
     assert_eq!(said.ids("issued"), issued.into());
 }
@@ -157,27 +153,21 @@ fn patterns_folders_and_lists_name_the_same() {
 fn a_dry_run_says_all_and_writes_nothing() {
     let workshop = Workshop::new(2, 5);
     workshop.run(&format!("issue stands/0000 --site sites {SIGN}"), 0);
-    let text = fs::read_to_string(workshop.path("sites/site-00002.yaml")).unwrap();
+    let text = workshop.read("sites/site-00002.yaml");
     workshop.write("sites/site-00002.yaml", &text.replace("height_m: 150.0", "height_m: 151.0"));
-    let before = snapshot(&workshop.path("."));
+    let before = workshop.snapshot(".");
     let said =
         workshop.run("issue stands --site sites --identity factory --trust allowed_signers --dry-run --format csv", 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("planned").len()), (4, 5));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
-    assert!(
-        said.words.contains("already exists with different content (site height_m 150.0 -> 151.0)"),
-        "{}",
-        said.words
-    );
-    assert_eq!(snapshot(&workshop.path(".")), before);
+    said.says("already exists with different content (site height_m 150.0 -> 151.0)");
+    assert_eq!(workshop.snapshot("."), before);
     // A key that is given must be usable.
     let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 2);
-    assert!(said.words.contains("no/such/key: cannot be read: no such file or folder"), "{}", said.words);
+    said.says("no/such/key: cannot be read: no such file or folder");
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --dry-run --out new"), 0);
     assert_eq!(said.results.matches("planned    SPS-2/").count(), 10);
     assert!(!workshop.path("new").exists());
-    let said = workshop.run("issue stands --site sites --identity factory", 2);
-    assert!(said.words.contains("--key <KEY>"), "{}", said.words);
 }
 
 #[test]
@@ -289,11 +279,11 @@ fn names_that_differ_only_in_case_do_not_stand_side_by_side() {
         "stands/0005/stand.yaml: stand sps-2/0005: found sps-2, but SPS-2 in stands/0000/stand.yaml",
         "sites/twice.yaml: site SITE-00001: found SITE-00001, but site-00001 in sites/site-00001.yaml",
     ] {
-        assert!(said.words.contains(words), "{}", said.words);
+        said.says(words);
     }
     assert_eq!(workshop.sound("passports").len(), 3 * 2);
     // And beside what is there already, nothing is written.
-    let before = snapshot(&workshop.path("passports"));
+    let before = workshop.snapshot("passports");
     for (arguments, words) in [
         ("stands/0004/stand.yaml --site sites/site-00000.yaml", "passports/SPS-2/A1: found passports/SPS-2/a1"),
         ("stands/0005/stand.yaml --site sites/site-00000.yaml", "passports/sps-2: found passports/SPS-2"),
@@ -302,8 +292,7 @@ fn names_that_differ_only_in_case_do_not_stand_side_by_side() {
             "passports/SPS-2/a1/SITE-00001-1.yaml: found passports/SPS-2/a1/site-00001",
         ),
     ] {
-        let said = workshop.run(&format!("issue {arguments} {SIGN}"), 1);
-        assert!(said.words.contains(words), "{}", said.words);
+        workshop.run(&format!("issue {arguments} {SIGN}"), 1).says(words);
     }
-    assert_eq!(snapshot(&workshop.path("passports")), before);
+    assert_eq!(workshop.snapshot("passports"), before);
 }

@@ -56,7 +56,7 @@ impl Job {
     fn new() -> Self {
         let workshop = Workshop::new(STANDS, SITES);
         for number in 0..STANDS {
-            let text = fs::read_to_string(workshop.path(&format!("stands/{number:04}/stand.yaml"))).unwrap();
+            let text = workshop.read(format!("stands/{number:04}/stand.yaml"));
             workshop.write(&format!("new/{number:04}/stand.yaml"), &text.replace("C-2026-0142", "C-2027-0001"));
         }
         fs::copy(programs::project("docs/header.yaml"), workshop.path("header.yaml")).unwrap();
@@ -109,7 +109,7 @@ impl Job {
     /// Sequences of the registers.
     fn now(&self) -> Vec<u64> {
         let text =
-            |number| fs::read_to_string(self.workshop.path(&format!("passports/SPS-2/{number:04}/register.yaml")));
+            |number| fs::read_to_string(self.workshop.path(format!("passports/SPS-2/{number:04}/register.yaml")));
         let texts = (0..STANDS).map(|number| text(number).unwrap());
         let line = |text: String| text.split_once("sequence: ")?.1.split_once(',')?.0.parse().ok();
         texts.map(|text| line(text).expect("a sequence")).collect()
@@ -133,7 +133,7 @@ impl Job {
 
     /// Files in the folders of the stands, temporary ones too.
     fn files(&self) -> usize {
-        let folders = (0..STANDS).chain([17]).map(|number| self.workshop.path(&format!("passports/SPS-2/{number:04}")));
+        let folders = (0..STANDS).chain([17]).map(|number| self.workshop.path(format!("passports/SPS-2/{number:04}")));
         folders.map(|folder| fs::read_dir(folder).map_or(0, Iterator::count)).sum()
     }
 
@@ -225,15 +225,10 @@ fn kill(kills: usize, seed: u64) -> Accumulator {
 /// Readings i, j, run, α, β, γ of a stand of which position (2, 3) has turned by 6 arcsec, and that differ by up to 0.5
 /// arcsec.
 fn shifted(readings: &str) -> String {
-    let line = |(number, line): (usize, &str)| {
+    programs::with_angles(readings, |line, row, column, angle| {
         let turned = if line.starts_with("2,3,") { 6.0 } else { 0.0 };
-        let cells = line.split(',').enumerate().map(|(column, cell)| match (column, cell.parse::<f64>()) {
-            (3.., Ok(angle)) => format!("{:.3}", angle + turned + ((number * 7 + column * 5) % 13) as f64 / 26.0),
-            _ => cell.to_owned(),
-        });
-        cells.collect::<Vec<_>>().join(",") + "\n"
-    };
-    readings.lines().enumerate().map(line).collect()
+        angle + turned + f64::from((row * 7 + column * 5) % 13) / 26.0
+    })
 }
 
 #[test]
@@ -258,12 +253,12 @@ fn leftovers_are_cleared_by_the_next_run_unless_somebody_is_at_work_on_them() {
     workshop.write(&format!("{folder}/.dtg-passport-dead.tmp"), "half a passp");
     workshop.write("passports/.dtg-passport-dead.tmp", "");
     workshop.write(&format!("{folder}/.dtg-passport-living.tmp"), "half a passp");
-    let living = File::open(workshop.path(&format!("{folder}/.dtg-passport-living.tmp"))).unwrap();
+    let living = File::open(workshop.path(format!("{folder}/.dtg-passport-living.tmp"))).unwrap();
     living.lock().unwrap();
     workshop.run(&format!("issue stands --site sites {SIGN} --dry-run"), 0);
     assert_eq!(workshop.leftovers("passports").len(), 3);
     workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
-    assert_eq!(workshop.leftovers("passports"), [workshop.path(&format!("{folder}/.dtg-passport-living.tmp"))]);
+    assert_eq!(workshop.leftovers("passports"), [workshop.path(format!("{folder}/.dtg-passport-living.tmp"))]);
     drop(living);
     workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
     assert!(workshop.leftovers("passports").is_empty());
@@ -295,16 +290,12 @@ fn temporary_files_that_are_taken_away_cost_nothing() {
 #[test]
 fn several_batches_on_one_folder_do_the_job_together() {
     let workshop = Workshop::new(3, 60);
-    let spawn = |number: usize| {
-        let sign = SIGN.replace("2026-11-03", &format!("2026-11-0{}", number + 3));
-        let mut command = workshop.command(&format!("issue stands --site sites {sign} --format csv"));
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-    };
-    let children: Vec<_> = (0..3).map(spawn).collect();
-    let said: Vec<Said> = children.into_iter().map(|child| Said::of(child.wait_with_output().unwrap(), 0)).collect();
-    let issued: usize = said.iter().map(|said| said.ids("issued").len()).sum();
-    let unchanged: usize = said.iter().map(|said| said.ids("unchanged").len()).sum();
-    assert_eq!((issued, unchanged), (180, 360));
+    let said = workshop.together((3..6).map(|day| {
+        let sign = SIGN.replace("2026-11-03", &format!("2026-11-0{day}"));
+        format!("issue stands --site sites {sign} --format csv")
+    }));
+    let sum = |state: &str| said.iter().map(|said| said.ids(state).len()).sum::<usize>();
+    assert_eq!((sum("issued"), sum("unchanged")), (180, 360));
     assert_eq!(workshop.sound("passports").len(), 180);
     assert!(workshop.leftovers("passports").is_empty());
 }

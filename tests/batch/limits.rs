@@ -38,7 +38,7 @@ fn run(number: usize, arguments: &str) -> String {
 
 /// What the run left, which must be sound; what it reported must be there, and what it listed it reported.
 fn survived(workshop: &Workshop, number: usize, code: i32) -> Said {
-    let read = |name: &str| fs::read_to_string(workshop.path(&format!("{name}-{number}"))).unwrap();
+    let read = |name: &str| workshop.read(format!("{name}-{number}"));
     let said = Said { results: read("report"), words: read("words") };
     assert_eq!(read("code").trim(), code.to_string(), "{}", said.words);
     let folder = format!("survived-{number}");
@@ -62,7 +62,7 @@ fn a_full_disk_costs_what_has_no_room_and_no_more() {
     let said = survived(&workshop, 1, 2);
     // Where the register has no room, the passports that have it do not count yet.
     assert_eq!((said.ids("issued").len(), said.ids("refused").len()), (0, 60));
-    assert!(said.words.contains("not listed in the register, so it does not count"), "{}", said.words);
+    said.says("not listed in the register, so it does not count");
     assert!(said.words.contains("no space left on the disk; no file was left"), "{}", said.words);
     let said = survived(&workshop, 2, 0);
     assert_eq!(said.ids("issued").len() + said.ids("unchanged").len(), 60);
@@ -85,7 +85,7 @@ fn results_that_belong_together_are_there_or_not() {
         (format!("calibrate {calibrate} --out out"), "4711.json", "4711.html"),
         (format!("export {read} --to site,json --out out"), "moscow-bmstu.yaml", "SPS-2/0017/moscow-bmstu-1.json"),
     ] {
-        let size = |name: &str| fs::metadata(workshop.path(&format!("out/{name}"))).map(|found| found.len());
+        let size = |name: &str| fs::metadata(workshop.path(format!("out/{name}"))).map(|found| found.len());
         workshop.run(&job, 0);
         let (fits, does_not) = (size(small).unwrap(), size(large).unwrap());
         assert!(fits + 1024 < does_not, "{job}: {fits}, {does_not}");
@@ -137,7 +137,7 @@ fn nothing_is_reported_before_it_is_safe() {
         strace.args(["-f", "-y", "-qq", "-s", "200", "-o", "trace", "-e", calls]);
         strace.args(issue.split(' ')).args(more.split(' ')).current_dir(workshop.path("."));
         programs::output(strace);
-        fs::read_to_string(workshop.path("trace")).unwrap()
+        workshop.read("trace")
     };
     let mut order = Order::default();
     trace("--out synced").lines().for_each(|line| order.note(line));
@@ -290,7 +290,7 @@ fn no_file_may_grow_large_enough() {
     let output = workshop.shell(&format!("trap '' XFSZ; {limited} --format csv")).output().unwrap();
     let said = Said::of(output, 2);
     assert_eq!(said.ids("refused").len(), 5);
-    assert!(said.words.contains("cannot be written: File too large"), "{}", said.words);
+    said.says("cannot be written: File too large");
     assert!(workshop.sound("out").is_empty() && workshop.leftovers("out").is_empty());
     let killed = workshop.shell(&limited).output().unwrap();
     assert!(killed.status.signal().is_some(), "{}", killed.status);

@@ -1,10 +1,10 @@
 //! Registers of stands: folders of an earlier version, several runs at once, and keys of two people.
 
 use crate::programs;
-use crate::workshop::{SIGN, Said, Workshop, snapshot};
+use crate::workshop::{SIGN, Said, Workshop};
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::{Output, Stdio};
+use std::process::Output;
 
 /// The key of the factory and who trusts it.
 const OWN: &str = "--key key --identity factory --trust allowed_signers";
@@ -31,12 +31,12 @@ signature: |
 /// passports in the workspace.
 fn of_an_earlier_version() -> Workshop {
     let workshop = Workshop::new(2, 2);
-    let text = fs::read_to_string(workshop.path("stands/0001/stand.yaml")).unwrap();
+    let text = workshop.read("stands/0001/stand.yaml");
     workshop.write("stands/0001/stand.yaml", &text.replace("C-2026-0142", "C-2026-0143").replace("12.4", "12.9"));
     workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
     for stand in ["0000", "0001"] {
-        fs::remove_file(workshop.path(&format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
-        fs::remove_file(workshop.path(&format!("passports/SPS-2/{stand}/.register.lock"))).unwrap();
+        fs::remove_file(workshop.path(format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
+        fs::remove_file(workshop.path(format!("passports/SPS-2/{stand}/.register.lock"))).unwrap();
     }
     workshop.write("revocations/revocation-1.yaml", OLD_LIST);
     workshop
@@ -59,7 +59,7 @@ fn a_folder_of_an_earlier_version_gets_registers_once_every_withdrawn_passport_i
     const ID: &str = "SPS-2/0000/site-00000/1";
     for withdrawn in [true, false] {
         let workshop = of_an_earlier_version();
-        let before = snapshot(&workshop.path("."));
+        let before = workshop.snapshot(".");
         // Nothing goes on without registers: the command that makes them is named.
         let said = workshop.run(&format!("reissue passports --same-content --reason new {OWN}"), 1);
         assert!(said.words.contains("no register; make it with `register DIR --renew`"), "{}", said.words);
@@ -69,13 +69,13 @@ fn a_folder_of_an_earlier_version_gets_registers_once_every_withdrawn_passport_i
         for dry in ["", " --dry-run"] {
             let said = workshop.run(&format!("register passports --renew {OWN}{dry}"), 1);
             let why = format!("revocations/revocation-1.yaml: withdraws {ID}, in a format of an earlier version");
-            assert!(said.words.contains(&why), "{}", said.words);
-            assert!(said.words.contains("--withdrawn ID --reason TEXT or --not-withdrawn ID"), "{}", said.words);
+            said.says(&why);
+            said.says("--withdrawn ID --reason TEXT or --not-withdrawn ID");
         }
         // A decision on another passport is none on this one.
         let other = format!("register passports --renew {OWN} --not-withdrawn SPS-2/0000/site-00001/1");
         assert!(workshop.run(&other, 1).words.contains(ID));
-        assert_eq!(snapshot(&workshop.path(".")), before);
+        assert_eq!(workshop.snapshot("."), before);
         let said = match withdrawn {
             true => {
                 let renew = format!("register passports --renew {OWN} --withdrawn {ID}");
@@ -89,7 +89,7 @@ fn a_folder_of_an_earlier_version_gets_registers_once_every_withdrawn_passport_i
         let due = others.map(|id| (id, "current")).into_iter().chain([(ID, state)]);
         assert_eq!(states(&workshop), due.map(|(id, state)| (id.to_owned(), state.to_owned())).collect());
         // The passports and the list themselves are untouched, and the work goes on.
-        let after = snapshot(&workshop.path("."));
+        let after = workshop.snapshot(".");
         assert!(before.is_subset(&after));
         let said = workshop.run(&format!("reissue passports --same-content --reason new {OWN} --format csv"), 0);
         assert_eq!(said.ids("issued").len(), if withdrawn { 3 } else { 4 });
@@ -119,19 +119,16 @@ fn eight_runs_at_once_on_one_stand_lose_no_update() {
     let workshop = Workshop::new(1, SITES);
     // The first register is that of a run of its own: without one, passports of others stop a run.
     workshop.run(&format!("issue stands --site sites/site-00000.yaml {SIGN}"), 0);
-    let spawn = |run: usize| {
+    let said = workshop.together((0..RUNS).map(|run| {
         let sites = (0..SITES).filter(|site| site % RUNS == run);
         let sites: String = sites.map(|site| format!("--site sites/site-{site:05}.yaml ")).collect();
-        let mut command = workshop.command(&format!("issue stands {sites}{SIGN} --format csv"));
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-    };
-    let runs: Vec<_> = (0..RUNS).map(spawn).collect();
-    let said: Vec<Said> = runs.into_iter().map(|run| Said::of(run.wait_with_output().unwrap(), 0)).collect();
+        format!("issue stands {sites}{SIGN} --format csv")
+    }));
     assert_eq!(said.iter().map(|said| said.ids("issued").len()).sum::<usize>(), SITES - 1);
     let due = (0..SITES).map(|site| (format!("SPS-2/0000/site-{site:05}/1"), "current".to_owned())).collect();
     assert_eq!(states(&workshop), due);
     // One register for each run, in a chain without a gap.
-    let text = fs::read_to_string(workshop.path("passports/SPS-2/0000/register.yaml")).unwrap();
+    let text = workshop.read("passports/SPS-2/0000/register.yaml");
     assert!(text.contains(&format!("sequence: {}, previous_sha256: ", 1 + RUNS)), "{text}");
     assert!(workshop.leftovers("passports").is_empty());
 }
@@ -141,16 +138,10 @@ fn eight_runs_at_once_on_one_stand_lose_no_update() {
 fn withdrawals_and_issues_at_once_are_all_in_the_register() {
     let workshop = Workshop::new(1, 8);
     workshop.run(&format!("issue stands --site sites/site-0000[0-3].yaml {SIGN}"), 0);
-    let spawn = |run: usize| {
-        let arguments = match run {
-            0..4 => format!("revoke SPS-2/0000/site-0000{run}/1 --reason wrong {OWN}"),
-            _ => format!("issue stands --site sites/site-0000{run}.yaml {SIGN}"),
-        };
-        let mut command = workshop.command(&arguments);
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
-    };
-    let runs: Vec<_> = (0..8).map(spawn).collect();
-    runs.into_iter().for_each(|run| drop(Said::of(run.wait_with_output().unwrap(), 0)));
+    workshop.together((0..8).map(|run| match run {
+        0..4 => format!("revoke SPS-2/0000/site-0000{run}/1 --reason wrong {OWN}"),
+        _ => format!("issue stands --site sites/site-0000{run}.yaml {SIGN}"),
+    }));
     let state = |site: usize| if site < 4 { "withdrawn" } else { "current" };
     let due = (0..8).map(|site| (format!("SPS-2/0000/site-{site:05}/1"), state(site).to_owned())).collect();
     assert_eq!(states(&workshop), due);
@@ -161,7 +152,7 @@ fn of_two_people() -> Workshop {
     let workshop = Workshop::new(1, 3);
     workshop.run("keygen second --identity factory --no-passphrase", 0);
     let first = fs::read_to_string(programs::project("tests/keys/examples.pub")).unwrap();
-    let second = fs::read_to_string(workshop.path("second.pub")).unwrap();
+    let second = workshop.read("second.pub");
     let line = |namespace: &str, key: &str| format!("factory namespaces=\"{namespace}\" {}\n", key.trim_end());
     workshop.write("allowed_signers", &(line("dtg-passport", &first) + &line("dtg-register", &second)));
     workshop
@@ -172,23 +163,19 @@ fn with_two_keys_the_key_of_the_passports_alone_makes_nothing_count() {
     let workshop = of_two_people();
     let issue = format!("issue stands --site sites {SIGN} --trust allowed_signers");
     // The key of the passports cannot sign the register, and the same key is not that of a second person.
-    let said = workshop.run(&issue, 1);
-    assert!(said.words.contains("dtg-register"), "{}", said.words);
-    let said = workshop.run(&format!("{issue} --register-key key --out other"), 2);
-    assert!(said.words.contains("--register-key: is the key of --key"), "{}", said.words);
+    workshop.run(&issue, 1).says("dtg-register");
+    workshop.run(&format!("{issue} --register-key key --out other"), 2).says("--register-key: is the key of --key");
     assert!(!workshop.path("other").exists());
     assert!(!workshop.path("passports").exists(), "a passport was written that no register lists");
     // Nor can it renew, or withdraw.
     workshop.run(&format!("{issue} --without-register"), 0);
-    let said = workshop.run(&format!("register passports --renew {OWN}"), 1);
-    assert!(said.words.contains("dtg-register"), "{}", said.words);
+    workshop.run(&format!("register passports --renew {OWN}"), 1).says("dtg-register");
     assert!(!workshop.path("passports/SPS-2/0000/register.yaml").exists());
     // With both keys, the same command lists what is written.
     let said = workshop.run(&format!("{issue} --register-key second --format csv"), 0);
     assert_eq!(said.ids("unchanged").len(), 3);
     assert_eq!(states(&workshop).len(), 3);
-    let said = workshop.run(&format!("revoke SPS-2/0000/site-00000/1 --reason stolen {OWN}"), 1);
-    assert!(said.words.contains("dtg-register"), "{}", said.words);
+    workshop.run(&format!("revoke SPS-2/0000/site-00000/1 --reason stolen {OWN}"), 1).says("dtg-register");
     assert!(states(&workshop).iter().all(|(_, state)| state == "current"));
     // Nor can that of the registers sign passports.
     let sign = SIGN.replace("--key key", "--key second");
@@ -205,7 +192,7 @@ fn a_second_person_takes_over_what_the_first_has_issued() {
     let without = format!("issue stands --site sites {SIGN} --trust allowed_signers --without-register --format csv");
     let said = workshop.run(&without, 0);
     assert_eq!(said.ids("issued").len(), 2);
-    assert!(said.words.contains("do not count until a second person lists them"), "{}", said.words);
+    said.says("do not count until a second person lists them");
     let verify = |code: i32| {
         let passport = "passports/SPS-2/0000/site-00001-1.yaml";
         workshop.run(&format!("verify {passport} --trust allowed_signers --register passports --format json"), code)
@@ -222,12 +209,12 @@ fn a_second_person_takes_over_what_the_first_has_issued() {
         let bytes = fs::read(workshop.path("passports/SPS-2/0000/site-00001-1.yaml")).unwrap();
         format!("{:x}", Sha256::digest(&bytes))
     };
-    let before = snapshot(&workshop.path("passports"));
+    let before = workshop.snapshot("passports");
     // Not with the key of the passports, and no file that is not there.
     workshop.run(&format!("{renew} --adopt {sha256} --key key"), 1);
     let said = workshop.run(&format!("{renew} --adopt {} --register-key second", "0".repeat(64)), 1);
-    assert!(said.words.contains("found no unlisted passport and no outdated register"), "{}", said.words);
-    assert_eq!(snapshot(&workshop.path("passports")), before);
+    said.says("found no unlisted passport and no outdated register");
+    assert_eq!(workshop.snapshot("passports"), before);
     workshop.run(&format!("{renew} --adopt {sha256} --register-key second"), 0);
     assert!(verify(0).results.contains("\"register\""));
     let said = workshop.run("register passports --trust allowed_signers --format csv", 1);
@@ -247,12 +234,11 @@ fn a_register_under_a_revoked_key_is_taken_over_by_a_person() {
     let sign = format!("{SIGN} --trust allowed_signers");
     workshop.run(&format!("issue stands --site sites {sign} --register-key second"), 0);
     workshop.run("keygen third --identity factory --no-passphrase", 0);
-    let third = fs::read_to_string(workshop.path("third.pub")).unwrap();
-    let signers = fs::read_to_string(workshop.path("allowed_signers")).unwrap();
+    let third = workshop.read("third.pub");
+    let signers = workshop.read("allowed_signers");
     workshop.write("allowed_signers", &format!("{signers}factory namespaces=\"dtg-register\" {third}"));
     let trust = "--trust allowed_signers --revoked second.pub";
-    let said = workshop.run(&format!("register passports {trust}"), 1);
-    assert!(said.words.contains("ALARM (register_unknown)"), "{}", said.words);
+    workshop.run(&format!("register passports {trust}"), 1).says("ALARM (register_unknown)");
     let renew = format!("register passports --renew --identity factory --register-key third {trust}");
     let said = workshop.run(&renew, 1);
     let sha256 = said.words.split("--adopt ").nth(1).expect("the SHA-256 to adopt")[..64].to_owned();
@@ -270,7 +256,7 @@ fn the_same_withdrawal_again_is_done_already() {
     workshop.run(&format!("register passports --renew {OWN}"), 0);
     let one = "SPS-2/0000/site-00000/1";
     workshop.run(&format!("revoke {one} --reason wrong {OWN}"), 0);
-    let before = snapshot(&workshop.path("passports"));
+    let before = workshop.snapshot("passports");
     for ids in [one, "SPS-2/0000/site-00000/*"] {
         let said = workshop.run(&format!("revoke {ids} --reason wrong {OWN}"), 0);
         assert_eq!(
@@ -278,9 +264,8 @@ fn the_same_withdrawal_again_is_done_already() {
             ("", "dtg-passport: already withdrawn; nothing was written\n")
         );
     }
-    let said = workshop.run(&format!("revoke {one} --reason other {OWN}"), 1);
-    assert!(said.words.contains("already withdrawn at"), "{}", said.words);
-    assert_eq!(snapshot(&workshop.path("passports")), before);
+    workshop.run(&format!("revoke {one} --reason other {OWN}"), 1).says("already withdrawn at");
+    assert_eq!(workshop.snapshot("passports"), before);
     // Together with one that is not yet withdrawn, as after a kill.
     workshop.run(&format!("revoke {one} SPS-2/0001/site-00000/1 --reason wrong {OWN}"), 0);
     assert_eq!(states(&workshop).iter().filter(|(_, state)| state == "withdrawn").count(), 2);

@@ -16,7 +16,7 @@ fn fleet() -> Workshop {
         let text = fs::read_to_string(workshop.path(&name)).unwrap();
         workshop.write(&name, &text.replace("\"2026-", "\"2020-").replace("\"2028-", "\"2098-"));
     }
-    let signers = fs::read_to_string(workshop.path("allowed_signers")).unwrap();
+    let signers = workshop.read("allowed_signers");
     workshop.write("allowed_signers", &signers.replacen("factory ", "factory@example.org ", 1));
     fs::rename(workshop.path("key"), workshop.path("factory.key")).unwrap();
     workshop

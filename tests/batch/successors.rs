@@ -1,6 +1,6 @@
 //! Passports of a whole folder issued anew: those that a change concerns, and no others.
 
-use crate::workshop::{SIGN, Said, Workshop, snapshot, snapshot_of_passports};
+use crate::workshop::{SIGN, Said, Workshop};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::fs;
@@ -17,7 +17,7 @@ fn issued() -> Workshop {
 
 /// A new certificate of a stand, in a folder of its own.
 fn certified_again(workshop: &Workshop, stand: &str, number: &str) {
-    let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
+    let text = workshop.read(format!("stands/{stand}/stand.yaml"));
     let text = text.replace("C-2026-0142", number).replace("alpha_arcsec: 12.4", "alpha_arcsec: 12.9");
     workshop.write(&format!("new/{stand}/stand.yaml"), &text);
 }
@@ -32,29 +32,29 @@ const ALL: [u32; 5] = [0, 1, 2, 3, 4];
 fn a_new_certificate_re_issues_all_that_hangs_on_it_once() {
     let workshop = issued();
     certified_again(&workshop, "0001", "C-2027-0001");
-    let before = snapshot(&workshop.path("passports"));
+    let before = workshop.snapshot("passports");
     let again = format!("reissue passports --stand new/0001/stand.yaml --reason recertified {ANEW}");
     let said = workshop.run(&format!("{again} --dry-run"), 0);
     assert_eq!(said.ids("planned"), ids("0001", &ALL, 2));
-    assert_eq!(snapshot(&workshop.path("passports")), before);
-    let before = snapshot_of_passports(&workshop.path("passports"));
+    assert_eq!(workshop.snapshot("passports"), before);
+    let before = workshop.snapshot_of_passports("passports");
     let said = workshop.run(&again, 0);
     assert_eq!((said.ids("issued"), said.results.lines().count()), (ids("0001", &ALL, 2), 6));
     assert_eq!(workshop.sound("passports").len(), 15);
-    assert!(before.is_subset(&snapshot_of_passports(&workshop.path("passports"))));
-    let after = snapshot(&workshop.path("passports"));
+    assert!(before.is_subset(&workshop.snapshot_of_passports("passports")));
+    let after = workshop.snapshot("passports");
     // Nothing hangs on the old certificate any more.
     let said = workshop.run(&again, 0);
     assert_eq!(said.ids("unchanged"), ids("0001", &ALL, 2));
     assert_eq!(said.ids("skipped"), ids("0001", &ALL, 1));
-    assert_eq!(snapshot(&workshop.path("passports")), after);
+    assert_eq!(workshop.snapshot("passports"), after);
     // The folder of all stands, of which one has changed once more.
     certified_again(&workshop, "0001", "C-2027-0002");
     fs::rename(workshop.path("new/0001/stand.yaml"), workshop.path("stands/0001/stand.yaml")).unwrap();
     let said = workshop.run(&format!("reissue passports --stand stands --reason corrected {ANEW}"), 0);
     assert_eq!(said.ids("issued"), ids("0001", &ALL, 3));
     assert_eq!(said.ids("unchanged"), ids("0000", &ALL, 1));
-    let text = fs::read_to_string(workshop.path("passports/SPS-2/0001/site-00002-3.yaml")).unwrap();
+    let text = workshop.read("passports/SPS-2/0001/site-00002-3.yaml");
     assert!(text.contains("    id: \"SPS-2/0001/site-00002/2\"\n") && text.contains("C-2027-0002"), "{text}");
 }
 
@@ -88,7 +88,7 @@ fn parts_of_a_folder_are_disjoint_and_complete() {
 #[test]
 fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
     let workshop = issued();
-    let text = fs::read_to_string(workshop.path("sites/site-00002.yaml")).unwrap();
+    let text = workshop.read("sites/site-00002.yaml");
     workshop.write("sites/site-00002.yaml", &text.replace("height_m: 150.0", "height_m: 151.0"));
     workshop.write("sites/site-00003.yaml", "rubbish\n");
     let said = workshop.run(&format!("reissue passports --sites sites --reason surveyed {ANEW}"), 2);
@@ -101,7 +101,7 @@ fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
     let named = "passports/SPS-2/0000/site-00001-1.yaml";
     let said = workshop.run(&format!("reissue {named} --stand bad.yaml --reason recertified {ANEW}"), 2);
     assert_eq!(said.ids("refused"), BTreeSet::from(["bad.yaml".to_owned(), named.to_owned()]));
-    assert!(said.words.contains("no stand file is for SPS-2/0000"), "{}", said.words);
+    said.says("no stand file is for SPS-2/0000");
 }
 
 /// `revoke`, but for the passports and the reason.
@@ -125,14 +125,14 @@ fn withdrawn_passports_are_skipped_and_a_stand_without_a_good_register_is_left()
             Some(damaged) => fs::write(&register, damaged).unwrap(),
             None => fs::remove_file(&register).unwrap(),
         }
-        let before = snapshot(&workshop.path("passports/SPS-2/0000"));
+        let before = workshop.snapshot("passports/SPS-2/0000");
         let said = workshop.run(&format!("reissue passports --same-content --reason again-{revision} {ANEW}"), 1);
-        assert!(said.words.contains(why), "{}", said.words);
+        said.says(why);
         assert_eq!(
             (said.ids("refused"), said.ids("issued")),
             (["SPS-2/0000".to_owned()].into(), ids("0001", &ALL, revision))
         );
-        assert_eq!(snapshot(&workshop.path("passports/SPS-2/0000")), before);
+        assert_eq!(workshop.snapshot("passports/SPS-2/0000"), before);
     }
 }
 
@@ -159,8 +159,7 @@ fn a_passport_has_one_successor_and_a_copy_that_went_its_own_way_does_not_count(
     assert_eq!(said.ids("issued").len(), 9);
     assert_eq!(said.ids("refused"), BTreeSet::from([format!("passports/{file}")]));
     assert!(said.words.contains("is not the listed file; restore it from the backup"), "{}", said.words);
-    let said = workshop.run("register passports --trust allowed_signers", 1);
-    assert!(said.words.contains(&format!("ALARM (differs): passports/{file}: ")), "{}", said.words);
+    workshop.run("register passports --trust allowed_signers", 1).says(&format!("ALARM (differs): passports/{file}: "));
     // The withdrawal is of the listed passport, whatever is in its place.
     let said = workshop.run(&format!("revoke SPS-2/0000/site-00000/2 --reason wrong {REVOKE}"), 0);
     assert!(
@@ -186,7 +185,7 @@ fn what_is_broken_or_missing_or_in_another_place_is_refused_and_the_rest_goes_on
     for words in
         ["site-00000-1.yaml: is not the listed file", "listed in the register, but missing", "more than 1048576"]
     {
-        assert!(said.words.contains(words), "{words}: {}", said.words);
+        said.says(words);
     }
     let issued = ids("0000", &[2, 4], 2).into_iter().chain(ids("0001", &ALL, 2)).collect();
     assert_eq!(said.ids("issued"), issued);
@@ -201,17 +200,17 @@ fn several_that_move_to_one_site_follow_each_other_in_order() {
     let due: Vec<String> = (1..=5).map(|revision| format!("SPS-2/0000/hall/{revision}")).collect();
     assert_eq!(rows, due);
     for revision in 1..=5 {
-        let text = fs::read_to_string(workshop.path(&format!("passports/SPS-2/0000/hall-{revision}.yaml"))).unwrap();
+        let text = workshop.read(format!("passports/SPS-2/0000/hall-{revision}.yaml"));
         assert!(text.contains(&format!("    id: \"SPS-2/0000/site-{:05}/1\"\n", revision - 1)), "{revision}");
     }
     // Only the last is in force at the end: the same command again adds nothing.
-    let before = snapshot(&workshop.path("passports"));
+    let before = workshop.snapshot("passports");
     let said = workshop.run(&format!("reissue passports/SPS-2/0000 --site hall.yaml --reason moved {ANEW}"), 0);
     let mut moved = ids("0000", &ALL, 1);
     moved.extend((1..5).map(|revision| format!("SPS-2/0000/hall/{revision}")));
     let last = BTreeSet::from(["SPS-2/0000/hall/5".to_owned()]);
     assert_eq!((said.ids("skipped"), said.ids("unchanged")), (moved, last));
-    assert_eq!(snapshot(&workshop.path("passports")), before);
+    assert_eq!(workshop.snapshot("passports"), before);
 }
 
 #[test]
@@ -241,11 +240,10 @@ fn a_successor_is_written_into_the_root_that_its_predecessor_shows() {
     assert!(!workshop.path("passports").exists());
     // A path that shows no root: nothing is written anywhere until one is named.
     fs::rename(workshop.path("one/SPS-2/0000"), workshop.path("one/SPS-2/renamed")).unwrap();
-    let before = snapshot(&workshop.path("one"));
+    let before = workshop.snapshot("one");
     let moved = "reissue one/SPS-2/renamed/site-00000-2.yaml --same-content --reason y";
-    let said = workshop.run(&format!("{moved} {ANEW}"), 2);
-    assert!(said.words.contains("--out"), "{}", said.words);
-    assert_eq!(snapshot(&workshop.path("one")), before);
+    workshop.run(&format!("{moved} {ANEW}"), 2).says("--out");
+    assert_eq!(workshop.snapshot("one"), before);
     workshop.run(&format!("{moved} --out three {ANEW}"), 0);
     assert_eq!(workshop.sound("three"), ids("0000", &[0], 3));
 }
@@ -256,8 +254,8 @@ fn after_a_theft_all_is_made_anew_from_the_factorys_files() {
     let workshop = issued();
     workshop.run("keygen new --identity factory --no-passphrase", 0);
     fs::copy(crate::programs::project("tests/keys/examples.pub"), workshop.path("stolen.pub")).unwrap();
-    let signers = fs::read_to_string(workshop.path("allowed_signers")).unwrap();
-    let new = fs::read_to_string(workshop.path("new.pub")).unwrap();
+    let signers = workshop.read("allowed_signers");
+    let new = workshop.read("new.pub");
     workshop.write("allowed_signers", &format!("{signers}factory {new}"));
     let anew = format!("{} --revoked stolen.pub", ANEW.replace("--key key", "--key new"));
     // A register under a revoked key does not count: a person takes over each.
@@ -266,11 +264,10 @@ fn after_a_theft_all_is_made_anew_from_the_factorys_files() {
     assert!(said.words.contains("was revoked") && said.ids("issued").is_empty(), "{}", said.words);
     let renew = "register passports --renew --key new --identity factory --trust allowed_signers --revoked stolen.pub";
     let hashes = ["0000", "0001"].map(|stand| {
-        let register = fs::read(workshop.path(&format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
+        let register = fs::read(workshop.path(format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
         format!("--adopt {:x}", Sha256::digest(&register))
     });
-    let said = workshop.run(renew, 1);
-    assert!(said.words.contains(&hashes[0]), "{}", said.words);
+    workshop.run(renew, 1).says(&hashes[0]);
     workshop.run(&format!("{renew} {}", hashes.join(" ")), 0);
     let said = workshop.run(&again, 0);
     assert_eq!(said.ids("issued").len(), 10);

@@ -26,9 +26,8 @@ impl Workshop {
         for name in ["stand.yaml", "allowed_signers"] {
             fs::copy(programs::project("tests/cmd/files").join(name), workshop.path(name)).unwrap();
         }
-        fs::copy(programs::project("tests/keys/examples"), workshop.path("key")).unwrap();
-        // Git does not keep this mode, and a private key that others can read is refused.
-        assert!(Command::new("chmod").arg("600").arg(workshop.path("key")).status().unwrap().success());
+        fs::copy(programs::project(programs::KEY), workshop.path("key")).unwrap();
+        programs::keep_secret(&workshop.path("key"));
         let stand = fs::read_to_string(workshop.path("stand.yaml")).unwrap();
         for number in 0..stands {
             let text = stand.replace("\"0017\"", &format!("\"{number:04}\""));
@@ -41,12 +40,31 @@ impl Workshop {
         workshop
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
         self.0.path().join(name)
     }
 
+    pub fn read(&self, name: impl AsRef<Path>) -> String {
+        let path = self.path(name);
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    }
+
+    /// Every file below a folder, with its bytes.
+    pub fn snapshot(&self, folder: &str) -> BTreeSet<(PathBuf, Vec<u8>)> {
+        let root = self.path(folder);
+        assert!(root.is_dir(), "{}", root.display());
+        files_under(&root).into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
+    }
+
+    /// The passports below a folder, without the registers, of which each run makes a new one.
+    pub fn snapshot_of_passports(&self, folder: &str) -> BTreeSet<(PathBuf, Vec<u8>)> {
+        let mut files = self.snapshot(folder);
+        files.retain(|(path, _)| is_named_as_a_passport(path));
+        files
+    }
+
     /// A file with this text, and the folders that it stands in.
-    pub fn write(&self, name: &str, text: &str) {
+    pub fn write(&self, name: impl AsRef<Path>, text: &str) {
         let path = self.path(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, text).unwrap();
@@ -62,6 +80,14 @@ impl Workshop {
     /// The same, run to its end; `code` is the exit code that it must have.
     pub fn run(&self, arguments: &str, code: i32) -> Said {
         Said::of(self.command(arguments).output().unwrap(), code)
+    }
+
+    /// Several runs at once; each must end with exit code 0.
+    pub fn together(&self, runs: impl IntoIterator<Item = String>) -> Vec<Said> {
+        let spawn =
+            |arguments: String| self.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let children: Vec<_> = runs.into_iter().map(spawn).collect();
+        children.into_iter().map(|child| Said::of(child.wait_with_output().unwrap(), 0)).collect()
     }
 
     /// A script of `sh` in the workshop; the program is `$DTG`.
@@ -152,7 +178,7 @@ fn files_under(folder: &Path) -> Vec<PathBuf> {
             let kind = entry.file_type().unwrap();
             if kind.is_dir() {
                 folders.push(entry.path());
-            } else if kind.is_file() {
+            } else {
                 files.push(entry.path());
             }
         }
@@ -189,33 +215,15 @@ impl Said {
         Self { results, words }
     }
 
+    /// Fails unless these words were said.
+    #[track_caller]
+    pub fn says(&self, words: &str) {
+        assert!(self.words.contains(words), "lacks {words}\n{}", self.words);
+    }
+
     /// The ids in some state, by the lines of `--format csv`.
     pub fn ids(&self, state: &str) -> BTreeSet<String> {
         let rows = self.results.lines().map(|line| line.split(',').collect::<Vec<_>>());
         rows.filter(|cells| cells[0] == state).map(|cells| cells[1].to_owned()).collect()
     }
-}
-
-/// A folder as it is: every file with its bytes.
-pub fn snapshot(folder: &Path) -> BTreeSet<(PathBuf, Vec<u8>)> {
-    let mut files = BTreeSet::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                files.insert((path.clone(), fs::read(path).unwrap()));
-            }
-        }
-    }
-    files
-}
-
-/// The passports in a folder as they are, without the registers, of which each run makes a new one.
-pub fn snapshot_of_passports(folder: &Path) -> BTreeSet<(PathBuf, Vec<u8>)> {
-    let mut files = snapshot(folder);
-    files.retain(|(path, _)| is_named_as_a_passport(path));
-    files
 }

@@ -1,26 +1,27 @@
 //! Statements of `calibrate` on readings that are missing or could be added, checked against the calibrations with those
 //! readings; and on the signs of the gyro type.
 
-use crate::programs;
+use crate::place::Place;
+use crate::programs::in_one_line;
 use serde_json::Value;
-use std::path::Path;
-use std::process::Command;
 
-const GYRO: &str = "docs/gvk-6.yaml";
+const CALIBRATE: &str =
+    "calibrate passports/SPS-2/0017/moscow-bmstu-1.yaml --trust docs/allowed_signers --time 2026-11-20T08:00:00Z";
+const CURRENTS: &str = "docs/currents.csv";
+const LABORATORY: &str = "--laboratory docs/laboratory.yaml";
+const GYRO: &str = "--gyro docs/gvk-6.yaml";
 
-/// The output of `calibrate` for a file of currents, with further options.
-fn output(currents: &Path, more: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    command.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
-    command.arg(currents).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"]);
-    command.args(["--laboratory", "docs/laboratory.yaml"]).args(more).env("COLUMNS", "200");
-    String::from_utf8(command.output().unwrap().stdout).unwrap()
+/// A folder with the example and the files that it is calibrated with.
+fn folder() -> Place {
+    let passport = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
+    let files = [passport, CURRENTS, "docs/allowed_signers", "docs/laboratory.yaml", "docs/gvk-6.yaml"];
+    Place::of(&files.map(|name| (name, name)))
 }
 
-/// The text, in one line, and the JSON of a calibration of a gyro of the type `gyro` on the file of currents.
-fn calibrated(currents: &Path, gyro: &Path) -> (String, Value) {
-    let run = |format: &str| output(currents, &["--gyro", gyro.to_str().unwrap(), "--format", format]);
-    (run("text").split_whitespace().collect::<Vec<_>>().join(" "), serde_json::from_str(&run("json")).unwrap())
+/// The text, in one line, and the JSON of a calibration of a gyro of the type on a file of currents.
+fn calibrated(folder: &Place, currents: &str) -> (String, Value) {
+    let run = |format: &str| folder.said(&format!("{CALIBRATE} {currents} {LABORATORY} {GYRO} --format {format}")).1;
+    (in_one_line(&run("text")), serde_json::from_str(&run("json")).unwrap())
 }
 
 /// A number of every parameter of the decision, by its name.
@@ -41,23 +42,17 @@ fn largest<'a>(
 /// Expected: exit code 1 for a current that is 0.1 mA off, alone, with a type, and among others.
 #[test]
 fn a_result_that_is_not_valid_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let right = std::fs::read_to_string(programs::project("docs/currents.csv")).unwrap();
-    let off = folder.path().join("off.csv");
-    std::fs::write(&off, right.replace("-0.3002995", "-0.4002995")).unwrap();
-    let (good, off) = ("docs/currents.csv", off.to_str().unwrap());
-    for (files, more, code) in [
-        (&[good][..], &[][..], 0),
-        (&[off], &[], 1),
-        (&[off], &["--gyro", GYRO], 1),
-        (&[good, off], &[], 1),
-        (&[good, off], &["--format", "json"], 1),
+    let folder = folder();
+    folder.write("off.csv", folder.read(CURRENTS).replace("-0.3002995", "-0.4002995"));
+    let both = format!("{CURRENTS} off.csv");
+    for (files, code) in [
+        (CURRENTS, 0),
+        ("off.csv", 1),
+        (&format!("off.csv {GYRO}"), 1),
+        (&both, 1),
+        (&format!("{both} --format json"), 1),
     ] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        command.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
-        command.args(files).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20", "-j", "1"]).args(more);
-        let output = command.output().unwrap();
-        assert_eq!(output.status.code(), Some(code), "{files:?} {more:?}\n{}", String::from_utf8_lossy(&output.stderr));
+        folder.ends(&format!("{CALIBRATE} -j 1 {files}"), code, "");
     }
 }
 
@@ -65,15 +60,14 @@ fn a_result_that_is_not_valid_is_refused() {
 /// turned by 90°. Only the gyro type tells.
 #[test]
 fn causes_that_make_the_readings_those_of_another_gyro_are_not_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let wrong = folder.path().join("wrong.csv");
-    let right = std::fs::read_to_string(programs::project("docs/currents.csv")).unwrap();
+    let folder = folder();
+    let right = folder.read(CURRENTS);
     let row = right.lines().find(|line| line.starts_with("1,3,")).unwrap();
     let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
     let [jx, jy] = [cells[2] + 1e-4, cells[3]];
-    std::fs::write(&wrong, right.replace(row, &format!("1,3,{jx:.7},{jy:.7}"))).unwrap();
-    let (with_type, result) = calibrated(&wrong, Path::new(GYRO));
-    let without_type = output(&wrong, &[]);
+    folder.write("wrong.csv", right.replace(row, &format!("1,3,{jx:.7},{jy:.7}")));
+    let (with_type, result) = calibrated(&folder, "wrong.csv");
+    let without_type = in_one_line(&folder.said(&format!("{CALIBRATE} wrong.csv {LABORATORY}")).1);
     const SAID: &str = "Position (1, 3) did not repeat";
     let causes = result["causes"].to_string();
     for (words, position, due) in
@@ -92,18 +86,17 @@ fn causes_that_make_the_readings_those_of_another_gyro_are_not_named() {
 #[test]
 fn the_effect_of_positions_is_that_of_their_readings() {
     const U: &str = "expanded_uncertainty";
-    let folder = tempfile::tempdir().unwrap();
-    let full = std::fs::read_to_string(programs::project("docs/currents.csv")).unwrap();
-    let of = |name: &str, begins: &[&str]| {
+    let folder = folder();
+    let full = folder.read(CURRENTS);
+    let of = |begins: &[&str]| {
         let row = |begin: &&str| full.lines().find(|line| line.starts_with(begin)).unwrap().to_owned() + "\n";
-        let path = folder.path().join(name);
-        std::fs::write(&path, begins.iter().map(row).collect::<String>()).unwrap();
-        calibrated(&path, Path::new(GYRO))
+        folder.write("some.csv", begins.iter().map(row).collect::<String>());
+        calibrated(&folder, "some.csv")
     };
     let first = ["i,j", "1,1", "1,2", "1,3", "1,4", "2,1"];
-    let (text, short) = of("short.csv", &first);
-    let (_, longer) = of("longer.csv", &[&first[..], &["2,2"]].concat());
-    let (_, all) = calibrated(&programs::project("docs/currents.csv"), Path::new(GYRO));
+    let (text, short) = of(&first);
+    let (_, longer) = of(&[&first[..], &["2,2"]].concat());
+    let (_, all) = calibrated(&folder, CURRENTS);
 
     let (worst, share) = largest(each(&short, U), each(&short, "tolerance"));
     assert_eq!(worst, "omega_g");

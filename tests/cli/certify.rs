@@ -1,12 +1,8 @@
 //! `certify` on the command line: what it writes, and every way in which its input is refused.
 
-use crate::deliver::Place;
+use crate::place::{Place, example};
 use crate::programs;
-use std::fs;
-
-fn example(name: &str) -> String {
-    fs::read_to_string(programs::project("docs").join(name)).unwrap()
-}
+use serde_json::Value;
 
 /// A folder with the examples of the documentation.
 fn folder() -> Place {
@@ -19,7 +15,7 @@ fn folder() -> Place {
 
 /// The line of position (i, j) in a run, its number replaced.
 fn replaced(place: &str, column: usize, value: impl Fn(&str) -> String) -> String {
-    let lines = example("angles.csv");
+    let lines = example("docs/angles.csv");
     let lines = lines.lines().map(|line| {
         let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
         if line.starts_with(place) {
@@ -34,60 +30,49 @@ fn replaced(place: &str, column: usize, value: impl Fn(&str) -> String) -> Strin
 #[test]
 fn a_check_has_an_exit_code() {
     let folder = folder();
-    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    folder.good("certify angles.csv --stand header.yaml -o stand.yaml");
     let (code, text, _) = folder.said("certify check.csv --against stand.yaml");
     assert!(code == 1 && text.contains("Position (2, 3) has changed"), "{text}");
-    let (code, text, _) = folder.said("certify check.csv --against stand.yaml --format json");
-    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");
+    let found = folder.json("certify check.csv --against stand.yaml", 1);
+    assert_eq!(found["comparison"]["same_stand"], false);
     assert!(found["not_certified"].as_str().unwrap().starts_with("found one run"));
     // Those of the certificate, saved anew, show nothing new; two of its runs agree as closely as another measurement.
-    for (name, again) in
-        [("same.csv", example("angles.csv")), ("anew.csv", example("angles.csv").replace('\n', "\r\n"))]
-    {
-        fs::write(folder.path(name), again).unwrap();
+    folder.write("anew.csv", folder.read("angles.csv").replace('\n', "\r\n"));
+    for name in ["angles.csv", "anew.csv"] {
         let (code, text, _) = folder.said(&format!("certify {name} --against stand.yaml"));
         assert!(code == 1 && text.starts_with("◐ UNDECIDED"), "{text}");
     }
     let two_runs = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
-    let two_runs: String = example("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();
-    fs::write(folder.path("two.csv"), two_runs).unwrap();
-    let (code, text, said) = folder.said("certify two.csv --against stand.yaml --format json");
-    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert!(code == 0 && found["comparison"]["same_stand"] == true, "{said}{text}");
+    let two_runs: String = folder.read("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();
+    folder.write("two.csv", two_runs);
+    let found = folder.json("certify two.csv --against stand.yaml", 0);
+    assert_eq!(found["comparison"]["same_stand"], true);
     assert_eq!(found["certification"]["stand"]["positions"].as_array().unwrap().len(), 8);
-    fs::write(folder.path("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
-    let (code, _, said) = folder.said("certify check.csv --stand header.yaml --against stand.yaml");
-    assert!(code == 1 && said.contains("SPS-2 0017") && said.contains("SPS-2 0018"), "{said}");
+    folder.write("header.yaml", folder.read("header.yaml").replace("0017", "0018"));
+    let said = folder.refused("certify check.csv --stand header.yaml --against stand.yaml", "SPS-2 0017");
+    assert!(said.contains("SPS-2 0018"), "{said}");
 }
 
 /// Other angles never go under a number that is there, --force or not.
 #[test]
 fn a_number_keeps_its_angles() {
     let folder = folder();
-    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let old = fs::read(folder.path("stand.yaml")).unwrap();
-    fs::write(folder.path("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
-        .unwrap();
+    folder.good("certify angles.csv --stand header.yaml -o stand.yaml");
+    let old = folder.read("stand.yaml");
+    folder.write("new.csv", replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)));
     for arguments in [
         "new.csv --against stand.yaml -o new.yaml",
         "new.csv --against stand.yaml --stand header.yaml -o new.yaml",
         "new.csv --against stand.yaml --stand header.yaml -o new.yaml --force",
         "new.csv --stand header.yaml -o stand.yaml --force",
     ] {
-        let (code, _, said) = folder.said(&format!("certify {arguments}"));
-        assert_eq!(code, 1, "{arguments}: {said}");
-        assert!(said.contains("certificate C-2026-0143") && said.contains("position (1, 1)"), "{said}");
-        assert!(
-            !folder.path("new.yaml").exists() && fs::read(folder.path("stand.yaml")).unwrap() == old,
-            "{arguments}"
-        );
+        let said = folder.refused(&format!("certify {arguments}"), "certificate C-2026-0143");
+        assert!(said.contains("position (1, 1)"), "{said}");
+        assert!(!folder.path("new.yaml").exists() && folder.read("stand.yaml") == old, "{arguments}");
     }
     // The same angles under the old number, and no header that says when: nothing to write.
-    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml -o new.yaml");
-    assert!(code == 2 && said.contains("--stand HEADER.yaml"), "{said}");
-    let header = example("header.yaml").replace("C-2026-0143", "C-2027-0007");
-    fs::write(folder.path("header.yaml"), header).unwrap();
+    folder.ends("certify angles.csv --against stand.yaml -o new.yaml", 2, "--stand HEADER.yaml");
+    folder.change("header.yaml", "C-2026-0143", "C-2027-0007");
     let (code, _, said) = folder.said("certify new.csv --against stand.yaml --stand header.yaml -o new.yaml");
     assert!(said.contains("wrote new.yaml"), "{code} {said}");
 }
@@ -139,31 +124,26 @@ print(json.dumps({"means": means, "share": share, "s": float(np.sqrt(rest @ rest
 fn an_excluded_reading_is_left_out_and_recorded() {
     let folder = folder();
     // A blunder that no certification would accept.
-    let bad = replaced("2,3,4,", 4, |_| "9999".into());
-    fs::write(folder.path("bad.csv"), &bad).unwrap();
-    let (code, _, said) = folder.said("certify bad.csv --stand header.yaml -o bad.yaml");
-    assert!(code == 2 && said.contains("check the digits"), "{said}");
+    folder.write("bad.csv", replaced("2,3,4,", 4, |_| "9999".into()));
+    folder.ends("certify bad.csv --stand header.yaml -o bad.yaml", 2, "check the digits");
     for (name, exclude, left_out, runs) in [
         ("one", "--exclude 2,3,4 --why blunder", "[[2, 3, 4]]", 5),
         ("two", "--exclude 2,3,4 --why blunder --exclude 1,2,1 --why vibration", "[[2, 3, 4], [1, 2, 1]]", 5),
         ("same", "--exclude 2,3,4 --exclude 2,3,1 --why blunder", "[[2, 3, 4], [2, 3, 1]]", 5),
         ("run", "--exclude 4 --why blunder", "[[4]]", 4),
     ] {
-        let (code, text, said) =
-            folder.said(&format!("certify bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
-        assert_eq!(code, 0, "{said}");
-        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let found = folder.json(&format!("certify bad.csv --stand header.yaml -o {name}.yaml {exclude}"), 0);
         let stand = &found["certification"]["stand"];
         let evidence = &stand["certificate"]["evidence"];
         assert_eq!((&evidence["runs"], evidence["excluded"][0]["run"].as_u64()), (&runs.into(), Some(4)));
         assert_eq!(evidence["excluded"][0]["why"], "blunder");
-        let mut python = programs::python();
-        python.args(["-c", WITHOUT]).arg(folder.path("bad.csv")).arg(left_out);
-        let due: serde_json::Value = serde_json::from_str(&programs::output(python)).unwrap();
+        let bad = folder.path("bad.csv");
+        let due = programs::output(programs::python().args(["-c", WITHOUT]).arg(bad).arg(left_out));
+        let due: Value = serde_json::from_str(&due).unwrap();
         let s = stand["certificate"]["repeatability_arcsec"].as_f64().unwrap();
         assert!((s / due["s"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{name}: {s}, {due}");
         let positions = stand["positions"].as_array().unwrap();
-        let u = |at: &serde_json::Value| at["u_gamma_arcsec"].as_f64().unwrap();
+        let u = |at: &Value| at["u_gamma_arcsec"].as_f64().unwrap();
         let whole = u(&positions[0]);
         for at in positions {
             let key = format!("{},{}", at["i"], at["j"]);
@@ -176,7 +156,7 @@ fn an_excluded_reading_is_left_out_and_recorded() {
             assert!((u(at) / whole / share.sqrt() - 1.0).abs() < 5e-3, "{name}, {key}: {}, {share}", u(at) / whole);
         }
         // The file is read again, and a passport of it says what was excluded.
-        let text = fs::read_to_string(folder.path(&format!("{name}.yaml"))).unwrap();
+        let text = folder.read(format!("{name}.yaml"));
         assert!(text.contains("    excluded:\n      - {"), "{text}");
     }
 }
@@ -195,35 +175,30 @@ fn bad_exclusions_are_refused() {
         ("--exclude 1 --exclude 2 --exclude 3 --exclude 4 --why x", 1, "one run"),
         ("--exclude 2,1,3 --exclude 2,2,3 --exclude 2,3,3 --exclude 2,4,3 --why x", 1, "exclude the whole run"),
     ] {
-        let (found, _, said) = folder.said(&format!("certify angles.csv --stand header.yaml -o out.yaml {exclude}"));
-        assert!(found == code && said.contains(words), "{exclude}: {found} {said}");
+        folder.ends(&format!("certify angles.csv --stand header.yaml -o out.yaml {exclude}"), code, words);
         assert!(!folder.path("out.yaml").exists());
     }
     // The same readings with other exclusions are other angles.
-    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let again = "angles.csv --stand header.yaml -o stand.yaml --force --exclude 2,3,4 --why x";
-    let (code, _, said) = folder.said(&format!("certify {again}"));
-    assert!(code == 1 && said.contains("already states other angles"), "{said}");
+    let certify = "certify angles.csv --stand header.yaml -o stand.yaml";
+    folder.good(certify);
+    folder.refused(&format!("{certify} --force --exclude 2,3,4 --why x"), "already states other angles");
 }
 
 /// A reading that was not taken: the advice is followed, and the file is then certified.
 #[test]
 fn the_advice_for_an_empty_cell_works() {
     let folder = folder();
+    let certify = "certify blank.csv --stand header.yaml -o blank.yaml --force";
+    let excluded = format!("{certify} --exclude 2,3,4 --why skipped");
     for cell in ["", "NaN"] {
-        fs::write(folder.path("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
-        let (code, _, said) = folder.said("certify blank.csv --stand header.yaml -o blank.yaml");
-        assert!(code == 2 && said.contains("exclude it with --exclude 2,3,4 and --why"), "{said}");
-        let (code, _, said) =
-            folder.said("certify blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
-        assert_eq!(code, 0, "{said}");
+        folder.write("blank.csv", replaced("2,3,4,", 4, |_| cell.into()));
+        folder.ends(certify, 2, "exclude it with --exclude 2,3,4 and --why");
+        folder.good(&excluded);
     }
-    let row = |line: &str| if line.starts_with("2,3,4,") { "2,3,4,,,\n".to_owned() } else { format!("{line}\n") };
-    let text = fs::read_to_string(folder.path("angles.csv")).unwrap();
-    fs::write(folder.path("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
-    let (code, _, said) =
-        folder.said("certify empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
-    assert_eq!(code, 0, "{said}");
+    let text = folder.read("angles.csv");
+    let row = text.lines().find(|line| line.starts_with("2,3,4,")).unwrap();
+    folder.write("blank.csv", text.replace(row, "2,3,4,,,"));
+    folder.good(&excluded);
 }
 
 /// Expected: the record that was written with the certificate, with its exclusion; a stand file that was changed by hand gets none.
@@ -231,13 +206,11 @@ fn the_advice_for_an_empty_cell_works() {
 fn a_certificate_gets_its_record_later() {
     let folder = folder();
     let certify = "angles.csv --stand header.yaml --exclude 2,3,4 --why lamp -o stand.yaml --report first.html";
-    assert_eq!(folder.said(&format!("certify {certify}")).0, 0);
-    let (code, stdout, said) = folder.said("certify angles.csv --against stand.yaml --report later.html");
-    assert!(code == 0 && stdout.contains("CERTIFIED"), "{stdout}{said}");
-    let record = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
-    assert_eq!(record("first.html"), record("later.html"));
-    let (stand, other) = (record("stand.yaml"), "alpha_arcsec: 9");
-    fs::write(folder.path("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
-    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml --report changed.html");
-    assert!(code == 1 && said.contains("was changed by hand") && !folder.path("changed.html").exists(), "{said}");
+    folder.good(&format!("certify {certify}"));
+    let said = folder.good("certify angles.csv --against stand.yaml --report later.html");
+    assert!(said.contains("CERTIFIED"), "{said}");
+    assert_eq!(folder.read("first.html"), folder.read("later.html"));
+    folder.change("stand.yaml", "alpha_arcsec: ", "alpha_arcsec: 9");
+    folder.refused("certify angles.csv --against stand.yaml --report changed.html", "was changed by hand");
+    assert!(!folder.path("changed.html").exists());
 }

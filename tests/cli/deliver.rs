@@ -1,139 +1,18 @@
 //! A delivery from the factory to the laboratory, and archives that no factory made.
 
+use crate::place::Place;
 use crate::programs;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-
-/// A folder of a test and the program run in it.
-pub struct Place(tempfile::TempDir);
-
-impl Place {
-    /// A folder with copies of files of the project, each with its name there; `key` is a private key.
-    pub fn of(files: &[(&str, &str)]) -> Self {
-        let place = Self(tempfile::tempdir().unwrap());
-        for (from, to) in files {
-            fs::create_dir_all(place.path(to).parent().unwrap()).unwrap();
-            fs::copy(programs::project(from), place.path(to)).unwrap();
-            // Git does not keep this mode, and a private key that others can read is refused.
-            assert!(*to != "key" || Command::new("chmod").arg("600").arg(place.path(to)).status().unwrap().success());
-        }
-        place
-    }
-
-    /// The workspace of a factory with passports for two sites.
-    pub fn new() -> Self {
-        let place = Self::before_issue();
-        place.good(
-            "issue SPS-2/0017 SPS-2/0018 --site moscow-bmstu --site torino-inrim --workspace factory \
-             --allow-uncalibratable",
-        );
-        place
-    }
-
-    /// Makes the workspace with stands and sites, but without passports.
-    pub fn before_issue() -> Self {
-        let place = Self(tempfile::tempdir().unwrap());
-        place.good("init factory --identity factory@example.org");
-        place.good(
-            "keygen factory/factory.key --no-passphrase --identity factory@example.org --allowed-signers \
-             factory/allowed_signers",
-        );
-        let stand = fs::read_to_string(programs::project("passports/SPS-2/0017/stand.yaml")).unwrap();
-        for serial in ["0017", "0018"] {
-            let folder = place.path(&format!("factory/stands/SPS-2/{serial}"));
-            fs::create_dir_all(&folder).unwrap();
-            // No two stands have the same deviations.
-            let of_this = match serial {
-                "0017" => stand.clone(),
-                _ => {
-                    stand.replace("\"0017\"", "\"0018\"").replace("C-2026-0142", "C-2026-0143").replace("12.4", "13.4")
-                }
-            };
-            fs::write(folder.join("stand.yaml"), of_this).unwrap();
-        }
-        for site in ["moscow-bmstu", "torino-inrim"] {
-            let name = format!("{site}.yaml");
-            fs::copy(programs::project("sites").join(&name), place.path("factory/sites").join(&name)).unwrap();
-        }
-        place
-    }
-
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub fn run(&self, arguments: &str) -> Output {
-        self.command(&arguments.split_whitespace().collect::<Vec<_>>())
-    }
-
-    pub fn command(&self, words: &[&str]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        // No browser prints here; what one prints is tested elsewhere.
-        command.env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name");
-        command.args(words).current_dir(&self.0).stdin(Stdio::null()).output().unwrap()
-    }
-
-    /// Exit code, standard output, standard error.
-    pub fn said(&self, arguments: &str) -> (i32, String, String) {
-        let output = self.run(arguments);
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    }
-
-    /// The result as JSON of a run that must end with `code`.
-    pub fn json(&self, arguments: &str, code: i32) -> serde_json::Value {
-        let (found, stdout, said) = self.said(&format!("{arguments} --format json"));
-        assert_eq!(found, code, "{arguments}\n{said}");
-        serde_json::from_str(&stdout).unwrap()
-    }
-
-    pub fn good(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{arguments}: {said}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    /// Runs the program, which must refuse with exit code 1 and the `words`, and returns all that it said.
-    pub fn refused(&self, arguments: &str, words: &str) -> String {
-        let output = self.run(arguments);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
-        assert!(said.contains(words), "{arguments}: lacks {words}\n{said}");
-        said + &String::from_utf8_lossy(&output.stdout)
-    }
-
-    /// The fingerprint as OpenSSH tells it.
-    pub fn fingerprint(&self, key: &str) -> String {
-        let output = Command::new("ssh-keygen").arg("-lf").arg(self.path(key)).output().unwrap();
-        String::from_utf8(output.stdout).unwrap().split(' ').nth(1).unwrap().to_owned()
-    }
-
-    /// Every file below the folder of the test, with its content.
-    pub fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
-        fn add(folder: &Path, all: &mut BTreeMap<PathBuf, Vec<u8>>) {
-            for entry in fs::read_dir(folder).unwrap() {
-                let path = entry.unwrap().path();
-                match path.is_dir() {
-                    true => add(&path, all),
-                    false => drop(all.insert(path.clone(), fs::read(&path).unwrap_or_default())),
-                }
-            }
-        }
-        let mut all = BTreeMap::new();
-        add(self.0.path(), &mut all);
-        all
-    }
-}
+use std::process::{Command, Stdio};
 
 /// Types a line at a terminal, a real one of util-linux's `script`; returns the exit code and what the terminal shows.
 fn typed(place: &Place, arguments: &str, line: &str) -> (Option<i32>, String) {
     let command = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_dtg-passport"));
     let mut script = Command::new("script");
-    script.args(["--quiet", "--return", "--command", &command, "/dev/null"]).current_dir(&place.0);
+    script.args(["--quiet", "--return", "--command", &command, "/dev/null"]).current_dir(place.path(""));
     script.env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name").stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut running = script.spawn().expect("`script` of util-linux runs");
     running.stdin.take().unwrap().write_all(format!("{line}\n").as_bytes()).unwrap();
@@ -143,9 +22,7 @@ fn typed(place: &Place, arguments: &str, line: &str) -> (Option<i32>, String) {
 
 #[test]
 fn a_fingerprint_is_typed_at_a_terminal() {
-    let place = Place::new();
-    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
-    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    let (place, fingerprint) = Place::with_delivery("SPS-2/0017/moscow-bmstu");
     let before = place.files();
     let one_off = format!("{}{}", &fingerprint[..49], if fingerprint.ends_with('A') { 'B' } else { 'A' });
     for line in ["", "yes", &one_off, &fingerprint[7..], &fingerprint.to_lowercase()] {
@@ -167,19 +44,20 @@ fn without_pages(place: &Place) -> BTreeMap<PathBuf, Vec<u8>> {
 
 /// Packs or unpacks an archive with Python's `zipfile`, a reader and writer of its own.
 fn python(script: &str, arguments: &[&Path]) {
-    let mut command = programs::python();
-    programs::output({
-        command.args(["-c", script]).args(arguments);
-        command
-    });
+    programs::output(programs::python().args(["-c", script]).args(arguments));
 }
 
 fn unpacked(archive: &Path) -> BTreeMap<String, Vec<u8>> {
-    let place = Place(tempfile::tempdir().unwrap());
-    let root = place.0.path();
-    python("import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])", &[archive, root]);
-    let name = |path: &Path| path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+    let place = Place::empty();
+    let root = place.path("");
+    python("import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])", &[archive, &root]);
+    let name = |path: &Path| path.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
     place.files().iter().map(|(path, bytes)| (name(path), bytes.clone())).collect()
+}
+
+/// The members of an archive, to be packed again.
+fn members(archive: &Path) -> Vec<Entry> {
+    unpacked(archive).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect()
 }
 
 #[test]
@@ -193,7 +71,7 @@ fn a_laboratory_gets_its_stand_alone() {
     let (passport, register) = (format!("{stand}/moscow-bmstu-1.yaml"), format!("{stand}/register.yaml"));
     let names: Vec<&str> = unpacked.keys().map(String::as_str).collect();
     assert_eq!(names, ["START-HERE.html", &passport, &register, "signing_keys.pub"]);
-    let key = fs::read_to_string(place.path("factory/factory.key.pub")).unwrap();
+    let key = place.read("factory/factory.key.pub");
     assert_eq!(unpacked["signing_keys.pub"], key.as_bytes());
     for (name, bytes) in &unpacked {
         assert!(!String::from_utf8_lossy(bytes).contains(&fingerprint[7..]), "{name} has the fingerprint");
@@ -212,22 +90,19 @@ fn a_laboratory_gets_its_stand_alone() {
         assert_eq!(place.files(), before, "{given}");
     }
 
-    let received = place.good(&format!("receive d.zip lab --fingerprint {fingerprint} --format json"));
-    let received: serde_json::Value = serde_json::from_str(&received).unwrap();
+    let received = place.json(&format!("receive d.zip lab --fingerprint {fingerprint}"), 0);
     assert_eq!((&received["made"], &received["keys"][0]["fingerprint"]), (&true.into(), &fingerprint.as_str().into()));
-    let of_factory = |name: &str| fs::read(place.path("factory").join(name)).unwrap();
     for name in [&passport, &register] {
-        assert_eq!(fs::read(place.path("lab").join(name)).unwrap(), of_factory(name), "{name}");
+        assert_eq!(place.read(format!("lab/{name}")), place.read(format!("factory/{name}")), "{name}");
     }
-    assert!(!place.path("lab").join(stand).join("torino-inrim-1.yaml").exists());
+    assert!(!place.path(format!("lab/{stand}/torino-inrim-1.yaml")).exists());
     let bare: Vec<&str> = key.split(' ').take(2).collect();
     let line = format!("factory@example.org namespaces=\"dtg-passport,dtg-register\" {}\n", bare.join(" "));
-    assert_eq!(fs::read_to_string(place.path("lab/allowed_signers")).unwrap(), line);
-    let settings = fs::read_to_string(place.path("lab/dtg-passport.toml")).unwrap();
+    assert_eq!(place.read("lab/allowed_signers"), line);
+    let settings = place.read("lab/dtg-passport.toml");
     assert!(settings.contains("\nstand = [\"SPS-2/0017\"]\n"), "{settings}");
     assert!(!settings.lines().any(|line| line.starts_with("at ")), "a person states the place");
-    let page = fs::read_to_string(place.path("lab/pages/SPS-2/0017/moscow-bmstu-1.html")).unwrap();
-    assert!(page.contains("moscow-bmstu"));
+    assert!(place.read("lab/pages/SPS-2/0017/moscow-bmstu-1.html").contains("moscow-bmstu"));
     place.good("verify SPS-2/0017/moscow-bmstu/1 --workspace lab");
     // Again, it needs no fingerprint and changes nothing.
     let before = without_pages(&place);
@@ -246,7 +121,7 @@ fn only_what_is_in_force_and_fresh_is_handed_over() {
     place.refused("deliver SPS-2/0017 -o d.zip --time 2031-01-01 --workspace factory", "valid until 2028-11-01");
     place.good("register factory/passports --renew --fresh-until 2026-01-01 --workspace factory");
     place.refused("deliver SPS-2/0017 -o d.zip --workspace factory", "fresh until 2026-01-01");
-    fs::write(place.path("factory/passports/SPS-2/0018/moscow-bmstu-1.yaml"), "format: \"dtg-passport/1\"\n").unwrap();
+    place.write("factory/passports/SPS-2/0018/moscow-bmstu-1.yaml", "format: \"dtg-passport/1\"\n");
     place.refused("deliver SPS-2/0018 -o d.zip --workspace factory", "nothing was handed over");
     assert!(!place.path("d.zip").exists());
 }
@@ -339,19 +214,11 @@ fn archive_of(entries: &[Entry], count: usize, comment: &[u8]) -> Vec<u8> {
     }
     let [count, length] = [count, comment.len()].map(|number| u16::try_from(number).unwrap());
     let [size, start] = [directory.len(), file.len()].map(|number| u32::try_from(number).unwrap());
-    file.extend(
-        [b"PK\x05\x06".as_slice(), &[0u16, 0, count, count].map(u16::to_le_bytes).concat()].concat().as_slice(),
-    );
-    let end = file.split_off(usize::try_from(start).unwrap());
-    [
-        file,
-        directory,
-        end,
-        [size, start].map(u32::to_le_bytes).concat(),
-        length.to_le_bytes().to_vec(),
-        comment.to_vec(),
-    ]
-    .concat()
+    file.extend([directory.as_slice(), b"PK\x05\x06"].concat());
+    file.extend([0u16, 0, count, count].map(u16::to_le_bytes).concat());
+    file.extend([size, start].map(u32::to_le_bytes).concat());
+    file.extend([length.to_le_bytes().as_slice(), comment].concat());
+    file
 }
 
 fn archive(entries: &[Entry]) -> Vec<u8> {
@@ -475,17 +342,16 @@ fn hostile(good: &[Entry], other: &[Entry]) -> Vec<(String, Vec<u8>)> {
         add("another compression", changed(&|entry| entry.both(|header| header.method = method)));
     }
     add("stored bytes that claim to be deflated", changed(&|entry| entry.both(|header| header.method = 8)));
-    let bomb = |length: u32, stated: u32| {
-        let packed = zeros(length as usize);
-        let mut bomb = entry("START-HERE.html", &packed).both(|header| (header.method, header.size) = (8, stated));
-        for header in [&mut bomb.local, &mut bomb.listed] {
-            header.crc = crc32(&vec![0; length as usize]);
-        }
-        archive(&[&[bomb], &good[1..]].concat())
+    let deflated = |data: &[u8], length: usize, stated: u32| {
+        let crc = crc32(&vec![0; length]);
+        let first = entry("START-HERE.html", data);
+        let first = first.both(|header| (header.method, header.size, header.crc) = (8, stated, crc));
+        archive(&[&[first], &good[1..]].concat())
     };
-    add("a bomb of 17 MiB", bomb(17 << 20, 17 << 20));
-    add("a bomb that claims to be small", bomb(17 << 20, 1000));
-    add("a bomb that claims 4 GiB", bomb(1 << 20, u32::MAX));
+    let of_zeros = |length: usize, stated: u32| deflated(&zeros(length), length, stated);
+    add("a bomb of 17 MiB", of_zeros(17 << 20, 17 << 20));
+    add("a bomb that claims to be small", of_zeros(17 << 20, 1000));
+    add("a bomb that claims 4 GiB", of_zeros(1 << 20, u32::MAX));
     let many: Vec<Entry> =
         (0..200).map(|number| entry(format!("passports/SPS-2/0017/s{number}-1.yaml"), b"x")).collect();
     add("204 members", archive(&[good, &many].concat()));
@@ -549,20 +415,13 @@ fn hostile(good: &[Entry], other: &[Entry]) -> Vec<(String, Vec<u8>)> {
     for (what, flag) in [("patched data", 1 << 5), ("masked headers", 1 << 13)] {
         add(what, changed(&|entry| entry.both(|header| header.flags |= flag)));
     }
-    let deflated = |data: Vec<u8>, size: usize| {
-        let mut entry = entry("START-HERE.html", &data);
-        for header in [&mut entry.local, &mut entry.listed] {
-            (header.method, header.size, header.crc) = (8, u32::try_from(size).unwrap(), crc32(&vec![0; size]));
-        }
-        archive(&[&[entry], &good[1..]].concat())
-    };
     let packed = zeros(5000);
-    add("a deflated member that is cut", deflated(packed[..packed.len() - 3].to_vec(), 5000));
-    add("bytes after a deflated member", deflated([packed.as_slice(), b"more"].concat(), 5000));
-    add("a deflated member that is shorter than stated", deflated(packed.clone(), 5001));
-    add("a deflated member that is longer than stated", deflated(packed, 4999));
-    add("a block of no known kind", deflated(vec![0b110; 50], 5000));
-    add("deflated bytes from before the beginning", deflated(vec![0x63, 0x02, 0x01, 0x00], 5));
+    add("a deflated member that is cut", deflated(&packed[..packed.len() - 3], 5000, 5000));
+    add("bytes after a deflated member", deflated(&[packed.as_slice(), b"more"].concat(), 5000, 5000));
+    add("a deflated member that is shorter than stated", deflated(&packed, 5001, 5001));
+    add("a deflated member that is longer than stated", deflated(&packed, 4999, 4999));
+    add("a block of no known kind", deflated(&[0b110; 50], 5000, 5000));
+    add("deflated bytes from before the beginning", deflated(&[0x63, 0x02, 0x01, 0x00], 5, 5));
     // Numbers of the end record and of the directory. Expected: APPNOTE.TXT, 4.3.12 and 4.3.16.
     let end = whole.len() - 22;
     let patched = |at: usize, bytes: &[u8]| {
@@ -642,33 +501,38 @@ fn below<'a>(files: &'a BTreeMap<PathBuf, Vec<u8>>, folder: &Path) -> BTreeMap<&
     files.iter().filter_map(|(path, bytes)| Some((path.strip_prefix(folder).ok()?, bytes.as_slice()))).collect()
 }
 
+/// Makes a key whose owner calls himself like the factory.
+fn key_of_another_factory(place: &Place) {
+    place.good("keygen other.key --no-passphrase --identity factory@example.org --allowed-signers other_signers");
+}
+
+/// With that key the other factory signs a passport, and delivers it as `other.zip`.
+fn delivered_by_the_other(place: &Place, serial: &str, site: &str) {
+    place.good(&format!(
+        "issue factory/stands/SPS-2/{serial}/stand.yaml --site factory/sites/{site}.yaml --key other.key --identity \
+         factory@example.org --out other --allow-uncalibratable"
+    ));
+    place.good(&format!("deliver SPS-2/{serial} --passports other --trust other_signers -o other.zip --force"));
+}
+
 #[test]
 fn hostile_archives_are_refused_whole() {
-    let place = Place::new();
-    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
-    let fingerprint = place.fingerprint("factory/factory.key.pub");
-    let good: Vec<Entry> =
-        unpacked(&place.path("d.zip")).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect();
+    let (place, fingerprint) = Place::with_delivery("SPS-2/0017/moscow-bmstu");
+    let good = members(&place.path("d.zip"));
     // What is hostile differs from this in one thing.
-    fs::write(place.path("x.zip"), archive(&good)).unwrap();
+    place.write("x.zip", archive(&good));
     place.good(&format!("receive x.zip good --fingerprint {fingerprint}"));
     // Another factory calls itself the same, and has signed the same stand and site.
-    place.good("keygen other.key --no-passphrase --identity factory@example.org --allowed-signers other_signers");
-    place.good(
-        "issue factory/stands/SPS-2/0017/stand.yaml --site factory/sites/moscow-bmstu.yaml --key other.key --identity \
-         factory@example.org --out other --allow-uncalibratable",
-    );
-    place.good("deliver SPS-2/0017 --passports other --trust other_signers -o other.zip");
-    let other: Vec<Entry> =
-        unpacked(&place.path("other.zip")).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect();
-    let hostile = hostile(&good, &other);
+    key_of_another_factory(&place);
+    delivered_by_the_other(&place, "0017", "moscow-bmstu");
+    let hostile = hostile(&good, &members(&place.path("other.zip")));
     let kinds: BTreeSet<&str> = hostile.iter().map(|(what, _)| what.as_str()).collect();
     let refused = kinds.iter().filter(|what| !IGNORED.contains(what)).count();
     println!("{} hostile archives, {} kinds, of which {refused} are refused", hostile.len(), kinds.len());
     assert!(refused >= 100, "{refused}");
     let mut believed = Vec::new();
     for (what, bytes) in &hostile {
-        fs::write(place.path("x.zip"), bytes).unwrap();
+        place.write("x.zip", bytes);
         let (before, whole) = (without_pages(&place), place.files());
         let may_pass = IGNORED.contains(&what.as_str());
         for folder in ["good", "new"] {
@@ -694,20 +558,20 @@ fn hostile_archives_are_refused_whole() {
 
 #[test]
 fn an_archive_that_was_packed_again_is_received() {
-    let place = Place::new();
-    place.good("deliver SPS-2/0017 -o d.zip --workspace factory");
-    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    let (place, fingerprint) = Place::with_delivery("SPS-2/0017");
     // Stored, deflated, deflated into a stream that cannot be rewound (so with data descriptors), and with folders.
-    let script = "import sys, zipfile\n\
-        class Stream:\n    def __init__(self, file): self.file = file\n    def write(self, data): return self.file.write(data)\n    \
-        def flush(self): self.file.flush()\n\
-        old = zipfile.ZipFile(sys.argv[1])\n\
-        for name, method, seeks in [('a', 0, True), ('b', 8, True), ('c', 8, False)]:\n    \
-        out = open(sys.argv[2] + '/' + name + '.zip', 'wb')\n    \
-        with zipfile.ZipFile(out if seeks else Stream(out), 'w', method) as new:\n        \
-        if name == 'b': new.writestr('passports/', ''); new.writestr('passports/SPS-2/', '')\n        \
-        for member in old.namelist(): new.writestr(member, old.read(member))\n";
-    python(script, &[&place.path("d.zip"), place.0.path()]);
+    const SCRIPT: &str = "
+import sys, zipfile
+class Stream:
+    def __init__(self, file): self.write, self.flush = file.write, file.flush
+old = zipfile.ZipFile(sys.argv[1])
+for name, method, seeks in [('a', 0, True), ('b', 8, True), ('c', 8, False)]:
+    out = open(sys.argv[2] + '/' + name + '.zip', 'wb')
+    with zipfile.ZipFile(out if seeks else Stream(out), 'w', method) as new:
+        if name == 'b': new.writestr('passports/', ''); new.writestr('passports/SPS-2/', '')
+        for member in old.namelist(): new.writestr(member, old.read(member))
+";
+    python(SCRIPT, &[&place.path("d.zip"), &place.path("")]);
     for name in ["a", "b", "c"] {
         place.good(&format!("receive {name}.zip lab-{name} --fingerprint {fingerprint}"));
         place.good(&format!("verify SPS-2/0017/torino-inrim/1 --workspace lab-{name}"));
@@ -729,15 +593,11 @@ fn a_register_goes_forward_only_and_a_key_needs_its_fingerprint() {
     let register = "lab/passports/SPS-2/0017/register.yaml";
     fs::remove_file(place.path(register)).unwrap();
     place.refused("receive old.zip lab", "is older than 2");
-    fs::write(place.path(register), &before[&place.path(register)]).unwrap();
+    place.write(register, &before[&place.path(register)]);
 
     // Another key of the same factory, and a stranger with its name.
-    place.good("keygen other.key --no-passphrase --identity factory@example.org --allowed-signers other_signers");
-    place.good(
-        "issue factory/stands/SPS-2/0018/stand.yaml --site factory/sites/moscow-bmstu.yaml --key other.key --identity \
-         factory@example.org --out other --allow-uncalibratable",
-    );
-    place.good("deliver SPS-2/0018 --passports other --trust other_signers -o other.zip");
+    key_of_another_factory(&place);
+    delivered_by_the_other(&place, "0018", "moscow-bmstu");
     let other = place.fingerprint("other.key.pub");
     let before = place.files();
     place.refused("receive other.zip lab", "trusts another key of factory@example.org");
@@ -750,11 +610,7 @@ fn a_register_goes_forward_only_and_a_key_needs_its_fingerprint() {
     place.good("verify SPS-2/0018/moscow-bmstu/1 --workspace lab");
 
     // The stranger's register for a stand that is here already contradicts the one that is remembered.
-    place.good(
-        "issue factory/stands/SPS-2/0017/stand.yaml --site factory/sites/torino-inrim.yaml --key other.key --identity \
-         factory@example.org --out other --allow-uncalibratable",
-    );
-    place.good("deliver SPS-2/0017 --passports other --trust other_signers -o other.zip --force");
+    delivered_by_the_other(&place, "0017", "torino-inrim");
     let before = place.files();
     place.refused("receive other.zip lab", "nothing was written");
     assert!(place.files() == before);
@@ -763,11 +619,8 @@ fn a_register_goes_forward_only_and_a_key_needs_its_fingerprint() {
 
 #[test]
 fn what_was_changed_after_it_was_signed_is_not_received() {
-    let place = Place::new();
-    place.good("deliver SPS-2/0017 -o d.zip --workspace factory");
-    let fingerprint = place.fingerprint("factory/factory.key.pub");
-    let good: Vec<Entry> =
-        unpacked(&place.path("d.zip")).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect();
+    let (place, fingerprint) = Place::with_delivery("SPS-2/0017");
+    let good = members(&place.path("d.zip"));
     let before = place.files();
     for (index, old, new) in
         [(1, "alpha_arcsec: 12.4", "alpha_arcsec: 12.5"), (2, "state: \"current\"", "state: \"Current\"")]
@@ -776,7 +629,7 @@ fn what_was_changed_after_it_was_signed_is_not_received() {
         assert!(text.contains(old), "{index}");
         let mut entries = good.clone();
         entries[index] = entry(entries[index].listed.name.clone(), text.replacen(old, new, 1).as_bytes());
-        fs::write(place.path("x.zip"), archive(&entries)).unwrap();
+        place.write("x.zip", archive(&entries));
         let said = place.refused(&format!("receive x.zip lab --fingerprint {fingerprint}"), "nothing was written");
         assert!(!said.contains(&fingerprint[7..]), "{said}");
     }
@@ -786,7 +639,7 @@ fn what_was_changed_after_it_was_signed_is_not_received() {
         let name = String::from_utf8(entry.listed.name.clone()).unwrap().replace("0017", "0018");
         *entry = self::entry(name, &entry.data);
     }
-    fs::write(place.path("x.zip"), archive(&entries)).unwrap();
+    place.write("x.zip", archive(&entries));
     place.refused(&format!("receive x.zip lab --fingerprint {fingerprint}"), "is of another stand");
     fs::remove_file(place.path("x.zip")).unwrap();
     assert!(place.files() == before);
@@ -797,9 +650,7 @@ fn what_was_changed_after_it_was_signed_is_not_received() {
 #[test]
 fn nothing_is_received_through_a_link() {
     use std::os::unix::fs::symlink;
-    let place = Place::new();
-    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
-    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    let (place, fingerprint) = Place::with_delivery("SPS-2/0017/moscow-bmstu");
     fs::create_dir(place.path("elsewhere")).unwrap();
     for name in ["passports/SPS-2", "pages", "pages/SPS-2", "registers", "allowed_signers"] {
         place.good("init lab --laboratory");

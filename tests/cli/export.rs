@@ -1,9 +1,8 @@
 //! `export`: what it writes makes the same passport again, and other programs read it.
 
-use crate::deliver::Place;
+use crate::place::Place;
+use crate::programs;
 use serde_json::Value;
-use std::fs;
-use std::process::Command;
 
 const TRUST: &str = "--trust docs/allowed_signers --time 2026-11-20";
 const EVERY: [&str; 3] = [
@@ -15,7 +14,7 @@ const EVERY: [&str; 3] = [
 /// A folder with the example passports, their allowed signers and the key that signed them.
 fn folder() -> Place {
     let files = EVERY.map(|name| (name, name));
-    let more = [("docs/allowed_signers", "docs/allowed_signers"), ("tests/keys/examples", "key")];
+    let more = [("docs/allowed_signers", "docs/allowed_signers"), (programs::KEY, "key")];
     Place::of(&[&files[..], &more].concat())
 }
 
@@ -28,7 +27,7 @@ fn the_exported_files_make_the_same_passport() {
         let out = format!("out-{number}");
         let (code, stdout, said) = folder.said(&format!("export {passport} {TRUST} --to stand,site --out {out}"));
         assert_eq!((code, stdout.as_str()), (0, ""), "{said}");
-        let original = fs::read_to_string(folder.path(passport)).unwrap();
+        let original = folder.read(passport);
         let value = |key: &str| {
             let line = original.lines().find(|line| line.trim_start().starts_with(key)).unwrap();
             line.split_once(": ").unwrap().1.trim_matches('"').to_owned()
@@ -39,10 +38,9 @@ fn the_exported_files_make_the_same_passport() {
             value("issued_at:"),
             if original.contains("\naccuracy:") { " --accuracy" } else { "" }
         );
-        let (code, _, said) = folder.said(&again);
-        assert_eq!(code, 0, "{said}");
+        folder.good(&again);
         let path = passport.replacen("passports", &format!("again-{number}"), 1);
-        assert_eq!(fs::read_to_string(folder.path(&path)).unwrap(), original, "{passport}");
+        assert_eq!(folder.read(path), original, "{passport}");
     }
 }
 
@@ -50,8 +48,8 @@ fn the_exported_files_make_the_same_passport() {
 #[test]
 fn many_are_lines_of_json() {
     let folder = folder();
-    let altered = fs::read_to_string(folder.path(EVERY[0])).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
-    fs::write(folder.path("passports/SPS-1/0203/altered-1.yaml"), altered).unwrap();
+    let altered = folder.read(EVERY[0]).replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
+    folder.write("passports/SPS-1/0203/altered-1.yaml", altered);
     let (code, stdout, said) = folder.said(&format!("export passports {TRUST} --to json,stand,site"));
     assert_eq!(code, 1, "{said}");
     let lines: Vec<Value> = stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -61,11 +59,9 @@ fn many_are_lines_of_json() {
     assert!(said.contains("REFUSED") && said.contains("nothing was exported"), "{said}");
     // Expected: sha256sum, and `show --format json`.
     for (line, file) in lines[1..].iter().zip(EVERY) {
-        let sum = Command::new("sha256sum").arg(folder.path(file)).output().unwrap().stdout;
-        assert!(String::from_utf8(sum).unwrap().starts_with(line["sha256"].as_str().unwrap()));
+        assert_eq!(line["sha256"], programs::sha256(&folder.path(file)));
         assert_eq!(line["file"], file);
-        let (_, shown, _) = folder.said(&format!("show {file} {TRUST} --format json"));
-        let shown: Value = serde_json::from_str(&shown).unwrap();
+        let shown = folder.json(&format!("show {file} {TRUST}"), 0);
         for (key, value) in shown.as_object().unwrap() {
             if key != "positions" {
                 assert_eq!(&line[key], value, "{key}");

@@ -1,7 +1,8 @@
 //! A fleet: tables say which stand goes where.
 
-use crate::deliver::Place;
-use crate::programs;
+use crate::place::{Place, example};
+use crate::programs::{self, with_angles};
+use serde_json::{Value, json};
 use std::fs;
 
 const TABLE: &str = "stand,site,valid_until,customer\n\
@@ -16,52 +17,40 @@ fn a_workspace_gets_its_key_and_its_issuer() {
     let place = Place::before_issue();
     place.good("init new");
     place.good("keygen --identity works@example.org --no-passphrase --workspace new");
-    let settings = fs::read_to_string(place.path("new/dtg-passport.toml")).unwrap();
+    let settings = place.read("new/dtg-passport.toml");
     assert!(settings.contains("\nidentity = \"works@example.org\"\n"), "{settings}");
-    for name in ["stands/SPS-2/0017", "sites"] {
-        let (from, to) = (place.path("factory").join(name), place.path("new").join(name));
-        fs::create_dir_all(&to).unwrap();
-        for entry in fs::read_dir(from).unwrap() {
-            let path = entry.unwrap().path();
-            fs::copy(&path, to.join(path.file_name().unwrap())).unwrap();
-        }
+    for name in ["stands/SPS-2/0017/stand.yaml", "sites/moscow-bmstu.yaml", "sites/torino-inrim.yaml"] {
+        place.write(format!("new/{name}"), place.read(format!("factory/{name}")));
     }
-    let issue = ["issue", "SPS-2/0017", "--site", "*", "--workspace", "new", "--allow-uncalibratable"];
-    let said = place.command(&issue);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+    place.good("issue SPS-2/0017 --site * --workspace new --allow-uncalibratable");
     for site in ["moscow-bmstu", "torino-inrim"] {
         place.good(&format!("verify SPS-2/0017/{site}/1 --issuer works@example.org --workspace new"));
     }
     // Another key is not the workspace's, and a second issuer is not stated.
     place.good("keygen other --identity other@example.org --no-passphrase --workspace new");
-    assert_eq!(fs::read_to_string(place.path("new/dtg-passport.toml")).unwrap(), settings);
+    assert_eq!(place.read("new/dtg-passport.toml"), settings);
 }
 
 #[test]
 fn each_row_of_a_table_is_a_passport_and_an_archive() {
     let place = Place::before_issue();
-    fs::write(place.path("table.csv"), TABLE).unwrap();
+    place.write("table.csv", TABLE);
     let issue = "issue --deliveries table.csv --workspace factory --allow-uncalibratable";
     let said = place.good(issue);
     assert!(said.contains("SPS-2/0017/moscow-bmstu/1"), "{said}");
-    let passports = place.path("factory/passports/SPS-2");
-    let there = |name: &str| fs::read_to_string(passports.join(name)).unwrap_or_default();
     // Expected: the cells of each row, and the date of the certificate where it states none.
     for (name, customer, valid_until) in [
         ("0017/moscow-bmstu-1.yaml", Some("Gyro Works, Moscow"), Some("2027-06-30")),
         ("0018/torino-inrim-1.yaml", Some("Torino Lab"), None),
         ("0018/moscow-bmstu-1.yaml", None, None),
     ] {
-        let text = there(name);
+        let text = place.read(format!("factory/passports/SPS-2/{name}"));
         assert!(text.contains("format: \"dtg-passport/1\""), "{name}");
-        let customer = customer.map(|customer| format!("customer: \"{customer}\""));
-        assert_eq!(text.contains("customer:"), customer.is_some(), "{name}");
-        assert!(customer.is_none_or(|customer| text.contains(&customer)), "{name}\n{text}");
-        let header =
-            text.lines().find(|line| line.starts_with("passport:") || line.contains("  valid_until")).unwrap_or("");
-        assert!(valid_until.is_none_or(|day| text.contains(&format!("valid_until: \"{day}\""))), "{name}: {header}");
+        states_customer(&text, customer);
+        assert!(valid_until.is_none_or(|day| text.contains(&format!("valid_until: \"{day}\""))), "{name}\n{text}");
     }
-    assert_eq!(there("0017/torino-inrim-1.yaml"), "", "the cross product is not asked for");
+    let product = place.path("factory/passports/SPS-2/0017/torino-inrim-1.yaml");
+    assert!(!product.exists(), "the cross product is not asked for");
     // The same again changes nothing.
     let before = place.files();
     place.good(issue);
@@ -80,6 +69,12 @@ fn each_row_of_a_table_is_a_passport_and_an_archive() {
     }
 }
 
+/// Fails unless a file states this customer, and no other.
+fn states_customer(text: &str, customer: Option<&str>) {
+    assert_eq!(text.matches("customer: ").count(), usize::from(customer.is_some()), "{text}");
+    assert!(customer.is_none_or(|customer| text.contains(&format!("customer: \"{customer}\""))), "{text}");
+}
+
 #[test]
 fn a_table_with_a_mistake_issues_nothing() {
     let place = Place::before_issue();
@@ -94,10 +89,9 @@ fn a_table_with_a_mistake_issues_nothing() {
         ("stand,site\n", "no row"),
         ("stand;site\nSPS-2/0017;samara\n", "samara"),
     ] {
-        fs::write(place.path("table.csv"), table).unwrap();
-        let output = place.run("issue --deliveries table.csv --workspace factory --allow-uncalibratable");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(matches!(output.status.code(), Some(1 | 2)) && said.contains(words), "{table}\n{said}");
+        place.write("table.csv", table);
+        let (code, _, said) = place.said("issue --deliveries table.csv --workspace factory --allow-uncalibratable");
+        assert!([1, 2].contains(&code) && said.contains(words), "{table}\n{said}");
         fs::remove_file(place.path("table.csv")).unwrap();
         assert!(place.files() == before, "{table}");
     }
@@ -105,22 +99,14 @@ fn a_table_with_a_mistake_issues_nothing() {
 
 /// The header of the example without what a table states, and the readings of stands that differ by `shift` arcseconds.
 fn readings(place: &Place, serials: &[&str]) {
-    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
+    let header = example("docs/header.yaml");
     let open: Vec<&str> =
         header.lines().filter(|line| !line.contains("  number:") && !line.contains("  issued:")).collect();
-    fs::write(place.path("header.yaml"), open.join("\n").replace("serial: \"0017\", ", "") + "\n").unwrap();
-    fs::create_dir(place.path("angles")).unwrap();
-    let angles = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
+    place.write("header.yaml", open.join("\n").replace("serial: \"0017\", ", "") + "\n");
+    let angles = example("docs/angles.csv");
     for (shift, serial) in serials.iter().enumerate() {
-        let row = |line: &str| {
-            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-            if let Some(alpha) = cells.get(3).and_then(|cell| cell.trim().parse::<f64>().ok()) {
-                cells[3] = format!("{:.2}", alpha + shift as f64);
-            }
-            cells.join(",")
-        };
-        let text: Vec<String> = angles.lines().map(row).collect();
-        fs::write(place.path(&format!("angles/{serial}.csv")), text.join("\n") + "\n").unwrap();
+        let shift = |column: u32| if column == 3 { shift as f64 } else { 0.0 };
+        place.write(format!("angles/{serial}.csv"), with_angles(&angles, |_, _, column, was| was + shift(column)));
     }
 }
 
@@ -130,29 +116,24 @@ fn one_header_certifies_a_fleet() {
     readings(&place, &["0101", "0102", "0103"]);
     let table = "serial,number,issued,customer,temperature_c\n\
                  0101,C-2026-0201,2026-11-03,Gyro Works,20.5\n0102,C-2026-0202,2026-11-04,,\n0103,C-2026-0203,2026-11-05,,\n";
-    fs::write(place.path("table.csv"), table).unwrap();
-    let certify = "certify angles --stand header.yaml --certificates table.csv --out stands";
-    place.good(certify);
+    place.write("table.csv", table);
+    place.good("certify angles --stand header.yaml --certificates table.csv --out stands");
     for (serial, number, issued, customer, temperature) in [
         ("0101", "C-2026-0201", "2026-11-03", Some("Gyro Works"), "20.5"),
         ("0102", "C-2026-0202", "2026-11-04", None, "20"),
     ] {
-        let text = fs::read_to_string(place.path(&format!("stands/SPS-2/{serial}/stand.yaml"))).unwrap();
+        let text = place.read(format!("stands/SPS-2/{serial}/stand.yaml"));
         let words = [format!("serial: \"{serial}\""), format!("number: \"{number}\""), format!("issued: \"{issued}\"")];
         assert!(words.iter().all(|words| text.contains(words)), "{text}");
         assert!(text.contains(&format!("temperature_c: {temperature}")), "{text}");
-        assert_eq!(text.contains("customer: "), customer.is_some(), "{text}");
-        assert!(customer.is_none_or(|customer| text.contains(&format!("customer: \"{customer}\""))), "{text}");
+        states_customer(&text, customer);
     }
     // The same angles as with a header of its own. Expected: `certify` of one stand.
-    let own = fs::read_to_string(place.path("header.yaml")).unwrap();
-    let own = own.replace("model: \"SPS-2\"", "model: \"SPS-2\", serial: \"0103\"");
-    let own = own.replace("certificate:\n", "certificate:\n  number: \"C-2026-0203\"\n  issued: \"2026-11-05\"\n");
-    fs::write(place.path("own.yaml"), own).unwrap();
-    place.good("certify angles/0103.csv --stand own.yaml -o own-stand.yaml");
-    let [own, common] =
-        ["own-stand.yaml", "stands/SPS-2/0103/stand.yaml"].map(|name| fs::read(place.path(name)).unwrap());
-    assert!(own == common);
+    place.change("header.yaml", "model: \"SPS-2\"", "model: \"SPS-2\", serial: \"0103\"");
+    let certificate = "certificate:\n  number: \"C-2026-0203\"\n  issued: \"2026-11-05\"\n";
+    place.change("header.yaml", "certificate:\n", certificate);
+    place.good("certify angles/0103.csv --stand header.yaml -o own-stand.yaml");
+    assert!(place.read("own-stand.yaml") == place.read("stands/SPS-2/0103/stand.yaml"));
 }
 
 /// A year's fleet, from readings to archives. Expected: a certificate, a passport in force and an archive for each row, and
@@ -168,21 +149,19 @@ fn two_hundred_stands_take_three_commands_and_two_tables() {
     let certificates = table("serial,number,issued", &|serial| format!("{serial},C-{serial},2026-11-03"));
     let deliveries =
         table("stand,site,customer", &|serial| format!("SPS-2/{serial},moscow-bmstu,Customer of {serial}"));
-    fs::write(place.path("certificates.csv"), certificates).unwrap();
-    fs::write(place.path("deliveries.csv"), deliveries).unwrap();
+    place.write("certificates.csv", certificates);
+    place.write("deliveries.csv", deliveries);
     place.good("certify angles --stand header.yaml --certificates certificates.csv --out factory/stands");
     place.good("issue --deliveries deliveries.csv --workspace factory");
     place.good("deliver --deliveries deliveries.csv --out archives --workspace factory");
     let listed = place.json("register factory/passports --trust factory/allowed_signers", 0);
     assert_eq!(listed["stands"].as_array().unwrap().len(), serials.len());
     for serial in &serials {
-        let archive = fs::read(place.path(&format!("archives/SPS-2/{serial}/moscow-bmstu.zip"))).unwrap();
+        let archive = fs::read(place.path(format!("archives/SPS-2/{serial}/moscow-bmstu.zip"))).unwrap();
         assert!(String::from_utf8_lossy(&archive).contains(&format!("{serial}/moscow-bmstu-1.yaml")), "{serial}");
-        let passport = format!("factory/passports/SPS-2/{serial}/moscow-bmstu-1.yaml");
-        let text = fs::read_to_string(place.path(&passport)).unwrap();
+        let text = place.read(format!("factory/passports/SPS-2/{serial}/moscow-bmstu-1.yaml"));
         assert!(text.contains(&format!("number: \"C-{serial}\"")), "{text}");
-        assert_eq!(text.matches("customer: ").count(), 1, "{text}");
-        assert!(text.contains(&format!("customer: \"Customer of {serial}\"")), "{text}");
+        states_customer(&text, Some(&format!("Customer of {serial}")));
     }
 }
 
@@ -193,69 +172,58 @@ fn a_row_or_a_file_without_its_partner_is_refused_and_the_others_are_done() {
     let table = "serial,number,issued\n0101,C-2026-0201,2026-11-03\n0102,C-2026-0202,2026-11-04\n\
                  0103,C-2026-0202,2026-11-04\n0104,C-2026-0204,2026-11-04\n0104,C-2026-0205,2026-11-04\n\
                  0109,C-2026-0209,2026-11-04\n";
-    fs::write(place.path("table.csv"), table).unwrap();
-    let said = place
-        .refused("certify angles --stand header.yaml --certificates table.csv --out stands", "serial 0109: the table");
+    place.write("table.csv", table);
+    let certify = "certify angles --stand header.yaml --certificates table.csv --out stands";
+    let said = place.refused(certify, "serial 0109: the table");
     for words in
         ["certificate C-2026-0202 has two rows", "serial 0104 has two rows", "the table has no row for serial 0105"]
     {
         assert!(said.contains(words), "lacks {words}\n{said}");
     }
-    let stands: Vec<_> =
-        fs::read_dir(place.path("stands/SPS-2")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(stands, ["0101"]);
+    assert_eq!(place.names("stands/SPS-2"), ["0101"]);
 }
 
 #[test]
 fn what_is_due_is_listed_by_its_days() {
     let place = Place::before_issue();
-    let table = TABLE.replace("Torino Lab", "=1+1").replace("2027-06-30", "2027-01-15");
-    fs::write(place.path("table.csv"), table).unwrap();
+    place.write("table.csv", TABLE.replace("Torino Lab", "=1+1").replace("2027-06-30", "2027-01-15"));
     place.good("issue --deliveries table.csv --workspace factory --allow-uncalibratable");
     place.good("register factory/passports --renew --fresh-until 2027-01-10 --workspace factory");
-    let json = place.good("status --days 60 --time 2026-12-01 --workspace factory --format json");
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    let due = json["due"].as_array().unwrap();
-    let row = |place: usize, key: &str| due[place][key].as_str().unwrap_or_default().to_owned();
-    let rows: Vec<[String; 3]> =
-        (0..due.len()).map(|place| [row(place, "date"), row(place, "what"), row(place, "id")]).collect();
-    let text = |row: [&str; 3]| row.map(str::to_owned);
+    let status = |days: u32, more: &str| place.good(&format!("status --days {days} --workspace factory {more}"));
+    let now = "--time 2026-12-01";
+    let found = place.json(&format!("status --days 60 --workspace factory {now}"), 0);
+    let due = found["due"].as_array().unwrap();
+    let rows: Vec<[&str; 3]> =
+        due.iter().map(|row| ["date", "what", "id"].map(|key| row[key].as_str().unwrap_or_default())).collect();
     assert_eq!(
         rows,
         [
-            text(["2027-01-10", "register_stale", "SPS-2/0017"]),
-            text(["2027-01-10", "register_stale", "SPS-2/0018"]),
-            text(["2027-01-15", "passport_expires", "SPS-2/0017/moscow-bmstu/1"]),
+            ["2027-01-10", "register_stale", "SPS-2/0017"],
+            ["2027-01-10", "register_stale", "SPS-2/0018"],
+            ["2027-01-15", "passport_expires", "SPS-2/0017/moscow-bmstu/1"],
         ]
     );
     assert_eq!(due[2]["days_left"], 45);
-    assert_eq!((row(2, "site"), row(2, "certificate")), ("moscow-bmstu".into(), "C-2026-0142".into()));
-    assert_eq!(row(2, "customer"), "Gyro Works, Moscow");
-    let said = place.good("status --days 60 --time 2026-12-01 --workspace factory");
+    let names = ["site", "certificate", "customer"].map(|key| due[2][key].as_str().unwrap());
+    assert_eq!(names, ["moscow-bmstu", "C-2026-0142", "Gyro Works, Moscow"]);
+    let said = status(60, now);
     assert!(said.contains("2027-01-15") && said.contains("Gyro Works, Moscow"), "{said}");
-    assert!(
-        place.good("status --days 3 --time 2026-12-01 --workspace factory").contains("nothing is due within 3 days")
-    );
+    assert!(status(3, now).contains("nothing is due within 3 days"));
 
     // As a table, in which no cell is a formula; in Russian as spreadsheet programs there expect it.
-    let of =
-        |options: &str| place.run(&format!("status --days 900 --time 2026-12-01 --workspace factory {options}")).stdout;
-    let csv = String::from_utf8(of("--format csv")).unwrap();
+    let csv = status(900, &format!("{now} --format csv"));
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines[0], "date,days_left,what,id,site,certificate,customer");
     let due =
         "2027-01-15,45,passport_expires,SPS-2/0017/moscow-bmstu/1,moscow-bmstu,C-2026-0142,\"Gyro Works, Moscow\"";
     assert!(lines.contains(&due), "{csv}");
     assert!(csv.contains(",'=1+1\n") && !csv.contains(",=1+1"), "{csv}");
-    let russian = String::from_utf8(of("--format csv --lang ru")).unwrap();
+    let russian = status(900, &format!("{now} --format csv --lang ru"));
     assert!(russian.starts_with("\u{feff}date;days_left;what;"), "{russian}");
     assert_eq!(russian.lines().count(), lines.len());
 
     // As a calendar. Expected: RFC 5545, 3.1 (lines), 3.6.1 (events), 3.8.4.7 (UID).
-    let calendar = |time: &str| {
-        let arguments = format!("status --days 60 --time {time} --workspace factory --format ics");
-        String::from_utf8(place.run(&arguments).stdout).unwrap()
-    };
+    let calendar = |time: &str| status(60, &format!("--time {time} --format ics"));
     let ics = calendar("2026-12-01");
     assert!(ics.starts_with("BEGIN:VCALENDAR\r\nVERSION:2.0\r\n") && ics.ends_with("END:VCALENDAR\r\n"), "{ics}");
     assert!(ics.split("\r\n").all(|line| line.len() <= 75 && !line.contains('\n')), "{ics}");
@@ -275,28 +243,20 @@ fn what_is_due_is_listed_by_its_days() {
 #[test]
 fn a_certificate_is_found_by_its_number() {
     let place = Place::before_issue();
-    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
-    fs::write(place.path("factory/header.yaml"), header.replace("C-2026-0143", "C-2026-0102")).unwrap();
-    fs::copy(programs::project("docs/angles.csv"), place.path("factory/readings/a.csv")).unwrap();
+    place.write("factory/header.yaml", example("docs/header.yaml").replace("C-2026-0143", "C-2026-0102"));
+    place.copy("docs/angles.csv", "factory/readings/a.csv");
     place.good(
         "certify factory/readings/a.csv --stand factory/header.yaml -o factory/stands/SPS-2/0017/stand.yaml --force --report \
          factory/record.html",
     );
     place.good("issue SPS-2/0017 --site moscow-bmstu --workspace factory");
     place.good("reissue SPS-2/0017/moscow-bmstu/1 --reason again --same-content --workspace factory");
-    let traced = |number: &str| -> serde_json::Value {
-        serde_json::from_str(&place.good(&format!("history {number} --workspace factory --format json"))).unwrap()
-    };
+    let traced = |number: &str| place.json(&format!("history {number} --workspace factory"), 0);
     // The second number begins with a Cyrillic letter.
     let found = traced("C-2026-0102");
     assert_eq!(found, traced("\u{421}-2026-0102"));
-    let mut sha256 = std::process::Command::new("sha256sum");
-    let sha256 = programs::output({
-        sha256.arg(place.path("factory/readings/a.csv"));
-        sha256
-    });
-    let readings = serde_json::json!([{"path": "factory/readings/a.csv", "sha256": sha256.split(' ').next()}]);
-    assert_eq!(found["readings"], readings);
+    let sha256 = programs::sha256(&place.path("factory/readings/a.csv"));
+    assert_eq!(found["readings"], json!([{"path": "factory/readings/a.csv", "sha256": sha256}]));
     for (key, path) in [
         ("header", "factory/header.yaml"),
         ("record", "factory/record.html"),
@@ -304,24 +264,18 @@ fn a_certificate_is_found_by_its_number() {
     ] {
         assert_eq!(found[key], path);
     }
-    let states = |found: &serde_json::Value| {
-        let passports = found["passports"].as_array().unwrap().iter();
-        let state = |at: &serde_json::Value| [&at["id"], &at["state"]].map(|text| text.as_str().unwrap().to_owned());
-        passports.map(state).collect::<Vec<_>>()
-    };
+    let passports = found["passports"].as_array().unwrap().iter();
+    let states: Vec<[&Value; 2]> = passports.map(|at| [&at["id"], &at["state"]]).collect();
     let [first, second] = ["SPS-2/0017/moscow-bmstu/1", "SPS-2/0017/moscow-bmstu/2"];
-    let due = [[first, "superseded"], [second, "current"]].map(|row| row.map(str::to_owned));
-    assert_eq!(states(&found), due);
-    assert_eq!((&found["missing"], &found["changed"]), (&serde_json::json!([]), &serde_json::json!([])));
+    assert_eq!(states, [[first, "superseded"], [second, "current"]]);
+    assert_eq!((&found["missing"], &found["changed"]), (&json!([]), &json!([])));
 
     // What is missing or has changed is said.
-    let stand = place.path("factory/stands/SPS-2/0017/stand.yaml");
-    let text = fs::read_to_string(&stand).unwrap();
-    fs::write(&stand, text.replacen("alpha_arcsec: ", "alpha_arcsec: 9", 1)).unwrap();
-    fs::write(place.path("factory/readings/a.csv"), "i,j,run\n").unwrap();
+    place.change("factory/stands/SPS-2/0017/stand.yaml", "alpha_arcsec: ", "alpha_arcsec: 9");
+    place.write("factory/readings/a.csv", "i,j,run\n");
     let found = traced("C-2026-0102");
-    assert_eq!(found["missing"], serde_json::json!(["readings", "stand_file"]));
-    assert_eq!(found["changed"], serde_json::json!(["factory/stands/SPS-2/0017/stand.yaml"]));
+    assert_eq!(found["missing"], json!(["readings", "stand_file"]));
+    assert_eq!(found["changed"], json!(["factory/stands/SPS-2/0017/stand.yaml"]));
     let said = place.good("history C-2026-0102 --workspace factory");
     assert!(said.contains("not found") && said.contains("stand.yaml: has changed"), "{said}");
     place.refused("history C-2026-0999 --workspace factory", "states certificate C-2026-0999");

@@ -1,9 +1,7 @@
 //! `history`: the lines and their tests against SciPy, and the picture as a drawing.
 
-use crate::programs;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use crate::place::{Place, example};
+use crate::programs::{self, with_angles};
 
 /// Reads the passports with PyYAML, and fits and tests every deviation with SciPy; prints the largest relative difference
 /// from the JSON of the program, and the number of fits.
@@ -58,43 +56,24 @@ worst = max(worst, abs(found["drift"]["detectable_arcsec_per_year"] / max(detect
 print(worst, len(order), len(fits) - len(found["drift"]["deviations"]), found["drift"]["drifts"], order[0])
 "#;
 
-fn run(folder: &Path, arguments: &str) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    command.args(arguments.split(' ')).current_dir(folder).stdin(Stdio::null());
-    programs::output(command)
-}
-
 /// The readings of the guide with the angle of one position shifted and all others slightly different.
 fn readings(year: u32) -> String {
-    let text = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
-    let lines = text.lines().enumerate().map(|(number, line)| {
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-        if cells.len() == 6 && cells[0] != "i" {
-            for (column, cell) in cells.iter_mut().enumerate().skip(3) {
-                let drifts = line.starts_with("2,3,") && column == 5;
-                let noise = f64::from((number as u32 * 7 + column as u32 * 5 + year * 11) % 13) / 13.0;
-                *cell = format!(
-                    "{:.3}",
-                    cell.parse::<f64>().unwrap() + noise + if drifts { 4.0 * f64::from(year) } else { 0.0 }
-                );
-            }
-        }
-        cells.join(",") + "\n"
-    });
-    lines.collect()
+    with_angles(&example("docs/angles.csv"), |line, row, column, angle| {
+        let drift = if line.starts_with("2,3,") && column == 5 { 4.0 * f64::from(year) } else { 0.0 };
+        angle + f64::from((row * 7 + column * 5 + year * 11) % 13) / 13.0 + drift
+    })
 }
 
 /// Expected: SciPy, from the passports as PyYAML reads them. The program also takes the angles between the axes of the
 /// deviations into account, which changes u by 1e-6 for the arc minutes of this stand.
 #[test]
 fn the_drift_is_what_scipy_finds() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    fs::copy(programs::project("tests/cmd/files/allowed_signers"), at("allowed_signers")).unwrap();
-    fs::copy(programs::project("tests/cmd/files/sites/here.yaml"), at("here.yaml")).unwrap();
-    fs::copy(programs::project("tests/keys/examples"), at("key")).unwrap();
-    assert!(Command::new("chmod").arg("600").arg(at("key")).status().unwrap().success());
-    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
+    let folder = Place::of(&[
+        ("tests/cmd/files/allowed_signers", "allowed_signers"),
+        ("tests/cmd/files/sites/here.yaml", "here.yaml"),
+        (programs::KEY, "key"),
+    ]);
+    let header = example("docs/header.yaml");
     let mut passports = Vec::new();
     for (revision, year) in (1..).zip([0, 2, 3, 6]) {
         let date = format!("{}-03-0{revision}", 2016 + year);
@@ -111,34 +90,32 @@ fn the_drift_is_what_scipy_finds() {
                 _ => format!("{line}\n"),
             })
             .collect();
-        fs::write(at("header.yaml"), edited).unwrap();
-        fs::write(at("angles.csv"), readings(year)).unwrap();
-        run(folder.path(), &format!("certify angles.csv --stand header.yaml -o stand-{year}.yaml"));
+        folder.write("header.yaml", edited);
+        folder.write("angles.csv", readings(year));
+        folder.good(&format!("certify angles.csv --stand header.yaml -o stand-{year}.yaml"));
         let sign = format!("--key key --identity factory --issued-at {date}T12:00:00Z");
         if revision == 1 {
-            run(folder.path(), &format!("issue stand-{year}.yaml --site here.yaml {sign}"));
+            folder.good(&format!("issue stand-{year}.yaml --site here.yaml {sign}"));
         } else {
             let old = revision - 1;
             let trust = "--trust allowed_signers --reason certified";
             let passport = format!("passports/SPS-2/0017/here-{old}.yaml");
-            run(folder.path(), &format!("reissue {passport} --stand stand-{year}.yaml {sign} {trust}"));
+            folder.good(&format!("reissue {passport} --stand stand-{year}.yaml {sign} {trust}"));
         }
-        passports.push(at(&format!("passports/SPS-2/0017/here-{revision}.yaml")));
+        passports.push(folder.path(format!("passports/SPS-2/0017/here-{revision}.yaml")));
     }
     let history = "history SPS-2/0017 --trust allowed_signers --time 2026-11-21";
-    fs::write(at("found.json"), run(folder.path(), &format!("{history} --format json -o years.svg"))).unwrap();
-    let mut python = programs::python();
-    python.args(["-c", COMPARE]).arg(at("found.json")).args(&passports);
-    let compared = programs::output(python);
+    folder.write("found.json", folder.good(&format!("{history} --format json -o years.svg")));
+    let found = folder.path("found.json");
+    let compared = programs::output(programs::python().args(["-c", COMPARE]).arg(found).args(&passports));
     let words: Vec<&str> = compared.trim().splitn(5, ' ').collect();
     assert!(words[0].parse::<f64>().unwrap() < 1e-5, "{compared}");
     assert_eq!(words[1..], ["24", "0", "True", "(2, 3, 'gamma')"], "{compared}");
     // The picture is well-formed XML, with a mark for each value and each certificate, and one in the legend of each.
-    let mut python = programs::python();
     let count = "import sys, xml.dom.minidom as x; d = x.parse(sys.argv[1]); \
                  print(len(d.getElementsByTagName('circle')), 'drifts' in d.toxml())";
-    python.args(["-c", count]).arg(at("years.svg"));
-    assert_eq!(programs::output(python).trim(), format!("{} True", 24 * 4 + 4 + 2));
+    let counted = programs::output(programs::python().args(["-c", count]).arg(folder.path("years.svg")));
+    assert_eq!(counted.trim(), format!("{} True", 24 * 4 + 4 + 2));
 }
 
 /// Returns the widths of the bars of a class, without that of the legend.
@@ -152,12 +129,12 @@ fn widths(svg: &str, class: &str) -> Vec<f64> {
 /// end of 2028-11-01, the certificate expires. A bar is long as the time, but for the leap year: 0.3 %.
 #[test]
 fn a_bar_continues_paler_until_its_passport_expires() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Place::empty();
+    let [passports, signers] = ["passports", "docs/allowed_signers"].map(programs::project);
+    let history = format!("history SPS-2/0017 --passports {} --trust {}", passports.display(), signers.display());
     let svg_at = |time: &str| {
-        let [passports, signers] = ["passports", "docs/allowed_signers"].map(programs::project);
-        let arguments = format!("--passports {} --trust {}", passports.display(), signers.display());
-        run(folder.path(), &format!("history SPS-2/0017 {arguments} --time {time} -o {time}.svg"));
-        fs::read_to_string(folder.path().join(format!("{time}.svg"))).unwrap()
+        folder.good(&format!("{history} --time {time} -o {time}.svg"));
+        folder.read(format!("{time}.svg"))
     };
     let during = svg_at("2027-09-01");
     let (past, ahead) = (widths(&during, "bar"), widths(&during, "grid"));

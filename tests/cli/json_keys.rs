@@ -1,7 +1,7 @@
 //! The keys of JSON results in their order, as programs rely on them; keys and numbers of `show --format json` against those that
 //! PyYAML finds in the file.
 
-use crate::deliver::Place;
+use crate::place::Place;
 use crate::programs;
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ fn folder() -> Place {
         ("tests/cmd/files/allowed_signers", "allowed_signers"),
         ("tests/cmd/files/sites/here.yaml", "here.yaml"),
         ("tests/cmd/files/sites/there.yaml", "there.yaml"),
-        ("tests/keys/examples", "key"),
+        (programs::KEY, "key"),
     ])
 }
 
@@ -61,8 +61,8 @@ fn verify_gives_every_check_in_its_order() {
 #[test]
 fn ndjson_has_a_line_for_each_input() {
     let folder = folder();
-    let stand = std::fs::read_to_string(folder.path("stand.yaml")).unwrap();
-    std::fs::write(folder.path("other.yaml"), stand.replace("0017", "0018").replace("C-2026-0142", "C-2")).unwrap();
+    let stand = folder.read("stand.yaml");
+    folder.write("other.yaml", stand.replace("0017", "0018").replace("C-2026-0142", "C-2"));
     let lines = |arguments: &str, code: i32| -> Value {
         let (found, printed, said) = folder.said(&format!("{arguments} --format ndjson"));
         assert_eq!(found, code, "{arguments}\n{said}");
@@ -138,11 +138,10 @@ fn show_as_json_has_the_numbers_that_pyyaml_finds() {
     let cheap = programs::project("passports/SPS-1/0203/stand.yaml").display().to_string();
     folder.good(&format!("issue stand.yaml {cheap} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-05"));
     for name in ["SPS-2/0017/here-1", "SPS-2/0017/there-1", "SPS-1/0203/here-1", "SPS-1/0203/there-1"] {
-        let shown = folder.good(&format!("show passports/{name}.yaml {TRUST} --format json"));
-        std::fs::write(folder.path("shown.json"), shown).unwrap();
-        let mut python = programs::python();
-        python.args(["-c", COMPARE]).arg(folder.path(&format!("passports/{name}.yaml"))).arg(folder.path("shown.json"));
-        let numbers: usize = programs::output(python).trim().parse().unwrap();
+        folder.write("shown.json", folder.good(&format!("show passports/{name}.yaml {TRUST} --format json")));
+        let files = [format!("passports/{name}.yaml"), "shown.json".to_owned()].map(|name| folder.path(name));
+        let compared = programs::output(programs::python().args(["-c", COMPARE]).args(files));
+        let numbers: usize = compared.trim().parse().unwrap();
         assert!(numbers > 150, "{name}: only {numbers} numbers");
     }
 }

@@ -1,57 +1,34 @@
 //! Files that verbs write below a folder: one rule for all, that of `issue`.
 
-use crate::programs;
+use crate::place::{Place, example};
 use std::fs;
 use std::os::unix::fs::symlink;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 
 const PASSPORT: &str = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
 const TRUST: &str = "--trust docs/allowed_signers --time 2026-11-20";
 
 /// A folder with a passport, a stand without angles and its readings; `out` is the folder to write to.
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new() -> Self {
-        let place = Self(tempfile::tempdir().unwrap());
-        for name in [PASSPORT, "docs/allowed_signers", "docs/angles.csv"] {
-            place.write(name, &fs::read_to_string(programs::project(name)).unwrap());
-        }
-        let stand = fs::read_to_string(programs::project("passports/SPS-2/0017/stand.yaml")).unwrap();
-        let of_certificate = ["repeatability", "common_", "evidence", "type_b", "{source"];
-        let header = stand.lines().filter(|line| !of_certificate.iter().any(|key| line.contains(key)));
-        let header: Vec<_> = header
-            .map(|line| line.split_once(", alpha_arcsec").map_or(line.to_owned(), |(begin, _)| begin.to_owned() + "}"))
-            .collect();
-        place.write("headers/angles.yaml", &(header.join("\n") + "\n"));
-        fs::create_dir(place.path("elsewhere")).unwrap();
-        place
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        let path = self.path(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
-    }
-
-    /// Runs the program, which must refuse with the `words`.
-    fn refused(&self, arguments: &str, words: &str) {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        let output = command.args(arguments.split(' ')).current_dir(&self.0).stdin(Stdio::null()).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(matches!(output.status.code(), Some(1 | 2)), "{arguments}: {said}");
-        assert!(said.contains(words), "{arguments}: lacks {words}\n{said}");
-    }
+fn place() -> Place {
+    let place = Place::of(&[PASSPORT, "docs/allowed_signers", "docs/angles.csv"].map(|name| (name, name)));
+    place.write("headers/angles.yaml", header_of(&example("passports/SPS-2/0017/stand.yaml")));
+    fs::create_dir(place.path("elsewhere")).unwrap();
+    place
 }
 
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+/// A stand before its angles are known.
+pub fn header_of(stand: &str) -> String {
+    const OF_CERTIFICATE: [&str; 5] = ["repeatability", "common_", "evidence", "type_b", "{source"];
+    let lines = stand.lines().filter(|line| !OF_CERTIFICATE.iter().any(|key| line.contains(key)));
+    let nominal =
+        lines.map(|line| line.split_once(", alpha_arcsec").map_or(line.to_owned(), |(begin, _)| format!("{begin}}}")));
+    nominal.map(|line| line + "\n").collect()
+}
+
+/// Runs the program, which must refuse with the `words`.
+fn refused(place: &Place, arguments: &str, words: &str) {
+    let (code, _, said) = place.said(arguments);
+    assert!([1, 2].contains(&code) && said.contains(words), "{arguments}: {code}, lacks {words}\n{said}");
 }
 
 /// Every verb that names the files below a folder itself, with the last one that it writes there.
@@ -69,7 +46,7 @@ fn verbs() -> [(String, &'static str); 5] {
 /// Expected: what `issue` does. A link below the folder may lead out of it.
 #[test]
 fn no_verb_writes_through_a_link_below_its_folder() {
-    let place = Place::new();
+    let place = place();
     let out = place.path("out");
     for (verb, file) in verbs() {
         for link in Path::new(file).ancestors().filter(|link| !link.as_os_str().is_empty()) {
@@ -77,8 +54,8 @@ fn no_verb_writes_through_a_link_below_its_folder() {
                 fs::create_dir_all(out.join(link).parent().unwrap()).unwrap();
                 symlink(place.path(target), out.join(link)).unwrap();
                 for force in ["", " --force"] {
-                    place.refused(&(verb.clone() + force), &format!("out/{}: is a link", link.display()));
-                    assert!(names(&place.path("elsewhere")).is_empty(), "{verb}{force} {link:?}");
+                    refused(&place, &(verb.clone() + force), &format!("out/{}: is a link", link.display()));
+                    assert!(place.names("elsewhere").is_empty(), "{verb}{force} {link:?}");
                 }
                 fs::remove_dir_all(&out).unwrap();
             }
@@ -90,14 +67,14 @@ fn no_verb_writes_through_a_link_below_its_folder() {
 /// Expected: what `issue` does, because Windows and macOS do not distinguish the two.
 #[test]
 fn no_verb_writes_next_to_a_name_that_differs_only_in_case() {
-    let place = Place::new();
+    let place = place();
     let out = place.path("out");
     for (verb, file) in verbs() {
         let other = Path::new(file).components().next().unwrap().as_os_str().to_str().unwrap();
         let other = if other.ends_with("yaml") { other.to_uppercase() } else { other.to_lowercase() };
-        place.write(&format!("out/{other}{}", if file == "moscow-bmstu.yaml" { "" } else { "/0017/x" }), "there");
-        place.refused(&verb, &format!("found out/{other}, which differs only in case"));
-        assert_eq!(names(&out), [other], "{verb}");
+        place.write(format!("out/{other}{}", if file == "moscow-bmstu.yaml" { "" } else { "/0017/x" }), "there");
+        refused(&place, &verb, &format!("found out/{other}, which differs only in case"));
+        assert_eq!(place.names("out"), [other], "{verb}");
         fs::remove_dir_all(&out).unwrap();
     }
 }
@@ -105,7 +82,7 @@ fn no_verb_writes_next_to_a_name_that_differs_only_in_case() {
 /// Expected: the word "link", because a message that such a file "already exists" sends the user to look for it.
 #[test]
 fn a_link_where_one_file_will_be_written_is_called_a_link() {
-    let place = Place::new();
+    let place = place();
     place.write("mine", "mine");
     for target in ["nowhere", "mine"] {
         for (name, verb) in [
@@ -117,16 +94,16 @@ fn a_link_where_one_file_will_be_written_is_called_a_link() {
             ("link", "keygen link --identity me --no-passphrase".to_owned()),
         ] {
             symlink(place.path(target), place.path(name)).unwrap();
-            place.refused(&verb, &format!("{name}: is a link"));
+            refused(&place, &verb, &format!("{name}: is a link"));
             let link = fs::read_link(place.path(name)).unwrap();
             assert_eq!(link, place.path(target), "{verb}");
             assert!(!place.path("stand.yaml").exists() && !place.path("nowhere").exists(), "{verb}");
             fs::remove_file(place.path(name)).unwrap();
         }
     }
-    assert_eq!(fs::read_to_string(place.path("mine")).unwrap(), "mine");
+    assert_eq!(place.read("mine"), "mine");
     // Of a list of keys only a link that leads nowhere is refused: one that leads to the shared list is usual.
     symlink(place.path("nowhere"), place.path("signers")).unwrap();
-    place.refused("keygen key --identity me --no-passphrase --allowed-signers signers", "signers: is a link");
+    refused(&place, "keygen key --identity me --no-passphrase --allowed-signers signers", "signers: is a link");
     assert!(!place.path("key").exists());
 }

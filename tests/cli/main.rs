@@ -22,6 +22,7 @@ mod keystrokes;
 mod laboratory;
 #[cfg(unix)]
 mod links;
+mod place;
 mod recertify;
 mod report;
 mod secrets;

@@ -1,7 +1,7 @@
 //! `recertify`: one step from readings to the passports of all places, or nothing at all.
 
-use crate::deliver::Place;
-use crate::programs;
+use crate::place::{Place, example};
+use crate::programs::{KEY, in_one_line, with_angles};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,22 +18,26 @@ fn factory() -> Place {
         ("tests/cmd/files/allowed_signers", "allowed_signers"),
         ("tests/cmd/files/sites/here.yaml", "here.yaml"),
         ("tests/cmd/files/sites/there.yaml", "there.yaml"),
-        ("tests/keys/examples", "key"),
+        (KEY, "key"),
         ("docs/angles.csv", "angles.csv"),
         ("docs/header.yaml", "header.yaml"),
     ]);
-    fs::write(factory.path("new.csv"), new_readings(6.0)).unwrap();
+    factory.write("new.csv", new_readings());
     factory.good("certify angles.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml");
     let stand = "passports/SPS-2/0017/stand.yaml";
     factory.good(&format!("issue {stand} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-03"));
     factory
 }
 
-/// Every file under `passports` with its content.
-fn passports(factory: &Place) -> BTreeMap<String, Vec<u8>> {
-    let files = fs::read_dir(factory.path("passports/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().path());
-    let named = files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap()));
-    named.filter(|(name, _)| name != ".register.lock").collect()
+/// Every file of the stand with its content.
+fn passports(factory: &Place) -> BTreeMap<String, String> {
+    let names = factory.names("passports/SPS-2/0017").into_iter().filter(|name| name != ".register.lock");
+    names.map(|name| (name.clone(), factory.read(format!("passports/SPS-2/0017/{name}")))).collect()
+}
+
+/// A key of every passport of a result.
+fn of_each<'a>(result: &'a Value, key: &str) -> Vec<&'a str> {
+    result["passports"].as_array().unwrap().iter().map(|at| at[key].as_str().unwrap()).collect()
 }
 
 fn states(factory: &Place) -> Vec<String> {
@@ -42,21 +46,12 @@ fn states(factory: &Place) -> Vec<String> {
     register["stands"][0]["rows"].as_array().unwrap().iter().map(line).collect()
 }
 
-/// The readings of the guide, each slightly different, and γ of position (2, 3) changed by `shift_arcsec`.
-fn new_readings(shift_arcsec: f64) -> String {
-    let text = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
-    let lines = text.lines().enumerate().map(|(number, line)| {
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-        if cells.len() == 6 && cells[0] != "i" {
-            for (column, cell) in cells.iter_mut().enumerate().skip(3) {
-                let shift = if line.starts_with("2,3,") && column == 5 { shift_arcsec } else { 0.0 };
-                let noise = ((number * 7 + column * 5) % 13) as f64 / 26.0;
-                *cell = format!("{:.3}", cell.parse::<f64>().unwrap() + noise + shift);
-            }
-        }
-        cells.join(",") + "\n"
-    });
-    lines.collect()
+/// The readings of the guide, each slightly different, and γ of position (2, 3) changed by 6 arcsec.
+fn new_readings() -> String {
+    with_angles(&example("docs/angles.csv"), |line, row, column, angle| {
+        let shift = if line.starts_with("2,3,") && column == 5 { 6.0 } else { 0.0 };
+        angle + f64::from((row * 7 + column * 5) % 13) / 26.0 + shift
+    })
 }
 
 #[test]
@@ -82,8 +77,7 @@ fn all_places_get_the_new_certificate() {
     );
 
     let found = factory.json(&format!("{recertify} --key key"), 0);
-    let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
-    assert_eq!(ids, ["SPS-2/0017/here/2", "SPS-2/0017/there/2"]);
+    assert_eq!(of_each(&found, "id"), ["SPS-2/0017/here/2", "SPS-2/0017/there/2"]);
     assert_eq!(
         states(&factory),
         [
@@ -111,26 +105,21 @@ fn all_places_get_the_new_certificate() {
     kept.for_each(|(name, bytes)| assert_eq!(&after[name], bytes));
 
     // Expected: `certify` with a header that omits the results and the dates of the old measurement.
-    let header = fs::read_to_string(factory.path("header.yaml")).unwrap();
-    let dropped = ["performed", "valid_until", "temperature_c"];
-    let header: String = header
-        .lines()
-        .filter(|line| !dropped.iter().any(|key| line.trim_start().starts_with(key)))
-        .map(|line| match line.trim_start().split(':').next() {
-            Some("number") => "  number: \"C-2026-0300\"\n".to_owned(),
-            Some("issued") => "  issued: \"2026-11-20\"\n".to_owned(),
-            _ => format!("{line}\n"),
-        })
-        .collect();
-    fs::write(factory.path("new-header.yaml"), header).unwrap();
+    let line = |line: &str| match line.trim_start().split(':').next() {
+        Some("performed" | "valid_until" | "valid_until_basis" | "temperature_c") => String::new(),
+        Some("number") => "  number: \"C-2026-0300\"\n".to_owned(),
+        Some("issued") => "  issued: \"2026-11-20\"\n".to_owned(),
+        _ => format!("{line}\n"),
+    };
+    factory.write("new-header.yaml", factory.read("header.yaml").lines().map(line).collect::<String>());
     factory.good("certify new.csv --stand new-header.yaml -o certified.yaml");
     // `certify` does not know when the previous certificate expires.
-    let stand = String::from_utf8(after["stand.yaml"].clone()).unwrap();
+    let stand = &after["stand.yaml"];
     let (no_expiry, rest): (Vec<&str>, Vec<&str>) = stand
         .split_inclusive('\n')
         .partition(|line| line.contains("valid until 2028-11-01 (inclusive); this one has no"));
     assert_eq!(no_expiry.len(), 1, "{stand}");
-    assert_eq!(rest.concat(), fs::read_to_string(factory.path("certified.yaml")).unwrap());
+    assert_eq!(rest.concat(), factory.read("certified.yaml"));
 
     // What has changed: γ of (2, 3), by 6 arcsec and the mean of the noise.
     let changes = found["changes"].as_array().unwrap();
@@ -141,14 +130,12 @@ fn all_places_get_the_new_certificate() {
 
     // Again: nothing to do; and half done by a kill between two files: completed.
     let again = factory.json(&format!("{recertify} --key key"), 0);
-    assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
+    assert!(of_each(&again, "state").iter().all(|state| *state == "unchanged"), "{again}");
     assert_eq!(passports(&factory), after);
     let put_back = |names: &[&str]| {
-        let folder = factory.path("passports/SPS-2/0017");
-        names.iter().for_each(|name| fs::write(folder.join(name), &before[*name]).unwrap());
+        names.iter().for_each(|name| factory.write(format!("passports/SPS-2/0017/{name}"), &before[*name]));
         let completed = factory.json(&format!("{recertify} --key key"), 0);
-        let states = completed["passports"].as_array().unwrap().iter();
-        states.map(|at| at["state"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+        of_each(&completed, "state").into_iter().map(str::to_owned).collect::<Vec<_>>()
     };
     // Before the stand file, after the register.
     assert_eq!(put_back(&["stand.yaml"]), ["unchanged", "unchanged"]);
@@ -163,29 +150,24 @@ fn all_places_get_the_new_certificate() {
     assert_eq!(states(&factory).iter().filter(|state| state.ends_with("current")).count(), 2);
     // A listed passport that is gone is not made again by itself.
     fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
-    let (code, _, said) = factory.said(&format!("{recertify} --key key"));
-    assert!(code == 2 && said.contains("there-2.yaml: cannot be read"), "{code}: {said}");
+    factory.ends(&format!("{recertify} --key key"), 2, "there-2.yaml: cannot be read");
 }
 
 #[test]
 fn a_header_and_a_place_can_be_chosen() {
     let factory = factory();
     let order = format!("{ORDER} --valid-until 2028-11-19 --header header.yaml --site here");
-    let (code, stdout, said) = factory.said(&format!("recertify {HERE} new.csv {order} {SIGN} {TRUST}"));
-    assert_eq!(code, 0, "{said}");
+    let stdout = factory.good(&format!("recertify {HERE} new.csv {order} {SIGN} {TRUST}"));
     assert!(stdout.contains("issued     SPS-2/0017/here/2") && !stdout.contains("there/2"), "{stdout}");
-    let words = stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = in_one_line(&stdout);
     assert!(words.contains("WARNING: in force under certificate C-2026-0143 still: SPS-2/0017/there/1"), "{stdout}");
-    let stand = String::from_utf8(passports(&factory)["stand.yaml"].clone()).unwrap();
+    let stand = &passports(&factory)["stand.yaml"];
     assert!(stand.contains("valid_until: \"2028-11-19\"") && stand.contains("performed: \"2026-10-29\""), "{stand}");
     // The other place follows, with a corrected site.
-    let site = fs::read_to_string(factory.path("there.yaml"))
-        .unwrap()
-        .replace("id: \"there\"", "id: \"there\"\nname: \"Hall 2\"");
-    fs::write(factory.path("there.yaml"), site).unwrap();
+    factory.change("there.yaml", "id: \"there\"", "id: \"there\"\nname: \"Hall 2\"");
     let order = order.replace("--site here", "--site there.yaml");
     factory.good(&format!("recertify passports/SPS-2/0017/there-1.yaml new.csv {order} {SIGN} {TRUST}"));
-    let there = String::from_utf8(passports(&factory)["there-2.yaml"].clone()).unwrap();
+    let there = &passports(&factory)["there-2.yaml"];
     assert!(there.contains("name: \"Hall 2\"") && there.contains("C-2026-0300"));
     assert!(states(&factory).iter().filter(|line| line.ends_with("current")).all(|line| line.contains("/2 ")));
 }
@@ -195,9 +177,9 @@ fn a_header_and_a_place_can_be_chosen() {
 #[test]
 fn an_expired_passport_is_recertified() {
     let factory = factory();
-    let here = fs::read_to_string(factory.path("here.yaml")).unwrap();
-    fs::write(factory.path("brief.yaml"), here.replace("id: \"here\"", "id: \"brief\"")).unwrap();
-    fs::write(factory.path("again.yaml"), here.replace("id: \"here\"", "id: \"again\"")).unwrap();
+    for id in ["brief", "again"] {
+        factory.write(format!("{id}.yaml"), factory.read("here.yaml").replace("\"here\"", &format!("\"{id}\"")));
+    }
     let issue = format!("issue passports/SPS-2/0017/stand.yaml {SIGN} --issued-at 2026-11-03");
     factory.good(&format!("{issue} --site brief.yaml --valid-until 2026-12-31"));
     factory.good(&format!("{issue} --site again.yaml"));
@@ -206,14 +188,13 @@ fn an_expired_passport_is_recertified() {
     let late = "--trust allowed_signers --time 2099-01-01";
     let recertify = format!("recertify {HERE} new.csv {ORDER} {SIGN} {late}");
     let found = factory.json(&recertify, 0);
-    let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
-    assert_eq!((ids, &found["remaining"]), (vec!["SPS-2/0017/here/2", "SPS-2/0017/again/2"], &Value::Array(vec![])));
+    assert_eq!(of_each(&found, "id"), ["SPS-2/0017/here/2", "SPS-2/0017/again/2"]);
+    assert_eq!(found["remaining"], Value::Array(vec![]));
     let shown = factory.json(&format!("show passports/SPS-2/0017/here-2.yaml {late}"), 0);
     let changed = shown["passport"]["reissued_from"]["changed"].as_str().unwrap();
     assert!(changed.contains("certificate number 'C-2026-0143' -> 'C-2026-0300'"), "{changed}");
     let again = factory.json(&recertify, 0);
-    assert_eq!(again["passports"].as_array().unwrap().len(), 2);
-    assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
+    assert_eq!(of_each(&again, "state"), ["unchanged", "unchanged"]);
 }
 
 /// Expected: a withdrawal counts at every time, so nothing is issued as of a time before it: what is issued now would have a
@@ -229,11 +210,8 @@ fn a_passport_that_was_withdrawn_later_gets_no_successor() {
         format!("recertify {HERE} new.csv --number C-3 --issued 2026-11-03"),
         format!("reissue {HERE} --site there.yaml --moved"),
     ] {
-        let (code, _, said) = factory.said(&format!("{order} --reason moved {SIGN} {trust} {at}"));
-        assert_eq!((code, passports(&factory)), (1, before.clone()), "{said}");
-        // The message may be wrapped.
-        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(said.contains("withdrawn"), "{said}");
+        let said = factory.refused(&format!("{order} --reason moved {SIGN} {trust} {at}"), "withdrawn");
+        assert_eq!(passports(&factory), before, "{said}");
     }
 }
 
@@ -241,40 +219,30 @@ fn a_passport_that_was_withdrawn_later_gets_no_successor() {
 #[test]
 fn a_refusal_writes_nothing() {
     let factory = factory();
-    let text = fs::read_to_string(factory.path("angles.csv")).unwrap();
-    let one_run: String = text
-        .lines()
-        .filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"))
-        .map(|line| format!("{line}\n"))
-        .collect();
-    fs::write(factory.path("one.csv"), one_run).unwrap();
-    // The angles of every position are those of the next one: another stand.
-    let rotated: String = text
-        .lines()
-        .map(|line| {
-            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-            if cells.len() == 6 && cells[0] != "i" {
-                let j: u32 = cells[1].parse().unwrap();
-                cells[1] = (j % 4 + 1).to_string();
-            }
-            cells.join(",") + "\n"
-        })
-        .collect();
-    fs::write(factory.path("rotated.csv"), rotated).unwrap();
-    // φ runs the wrong way, for all positions (half of them then agree) and for two.
-    for (name, frames) in [("reversed.csv", ["1", "2"].as_slice()), ("exchanged.csv", &["2"])] {
-        let exchanged = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
-            [i, j @ ("2" | "4"), ref rest @ ..] if frames.contains(&i) => {
-                format!("{i},{},{}\n", if j == "2" { "4" } else { "2" }, rest.join(","))
+    let text = factory.read("angles.csv");
+    let one_run = text.lines().filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"));
+    factory.write("one.csv", one_run.map(|line| format!("{line}\n")).collect::<String>());
+    // The readings under other j.
+    type Renamed = fn(i: &str, j: u32) -> u32;
+    let renamed: [(&str, Renamed); 3] = [
+        // The angles of every position are those of the next one: another stand.
+        ("rotated.csv", |_, j| j % 4 + 1),
+        // φ runs the wrong way, for all positions (half of them then agree) and for two.
+        ("reversed.csv", |_, j| [1, 4, 3, 2][j as usize - 1]),
+        ("exchanged.csv", |i, j| if i == "2" { [1, 4, 3, 2][j as usize - 1] } else { j }),
+    ];
+    for (name, renamed) in renamed {
+        let line = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
+            [i, j, ref rest @ ..] if rest.len() == 4 && i != "i" => {
+                format!("{i},{},{}\n", renamed(i, j.parse().unwrap()), rest.join(","))
             }
             _ => format!("{line}\n"),
         };
-        fs::write(factory.path(name), text.lines().map(exchanged).collect::<String>()).unwrap();
+        factory.write(name, text.lines().map(line).collect::<String>());
     }
-    let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
-    fs::create_dir_all(factory.path("other/SPS-2/0017")).unwrap();
-    fs::write(factory.path("other/SPS-2/0017/here-1.yaml"), altered).unwrap();
-    fs::copy(factory.path(HERE), factory.path("alone.yaml")).unwrap();
+    let here = factory.read(HERE);
+    factory.write("other/SPS-2/0017/here-1.yaml", here.replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1));
+    factory.write("alone.yaml", here);
     let before = passports(&factory);
     let good = format!("{ORDER} {SIGN} {TRUST}");
     let number = |number: &str| good.replace("C-2026-0300", number);
@@ -330,10 +298,7 @@ fn a_passport_is_enough_for_a_check() {
     assert!(stdout.starts_with("✕ CHANGED") && stdout.contains("Position (2, 3) has changed"), "{stdout}");
     let (_, stdout, _) = factory.said("certify new.csv --against passports/SPS-2/0017/stand.yaml");
     assert_eq!(of_passport, stdout, "the passport and the stand file say the same");
-    let (code, stdout, said) = factory.said(&format!("certify new.csv --against {HERE}"));
-    assert!(code == 2 && stdout.is_empty() && said.contains("found a passport; specify --trust"), "{said}");
-    let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1);
-    fs::write(factory.path("altered.yaml"), altered).unwrap();
+    factory.write("altered.yaml", factory.read(HERE).replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1));
     let (code, stdout, said) = factory.said(&format!("certify new.csv --against altered.yaml {TRUST}"));
     assert!(code == 1 && stdout.is_empty() && said.contains("FAILED     signature"), "{said}");
 }
@@ -346,12 +311,11 @@ fn the_record_shows_the_change_and_the_exclusion() {
     let recertify = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --report record.html");
     factory.good(&format!("{recertify} --dry-run --exclude 2,3,4 --why lamp"));
     assert_eq!(passports(&factory), before, "a dry run writes the record alone");
-    let (code, _, said) = factory.said(&format!("{recertify} --key key"));
-    assert!(code == 1 && said.contains("record.html: already exists") && passports(&factory) == before, "{said}");
-    let (code, _, said) = factory.said(&format!("{recertify} --key key").replace(".html", ".pdf"));
-    assert!(code == 2 && said.contains("no-browser-of-this-name") && passports(&factory) == before, "{said}");
+    factory.refused(&format!("{recertify} --key key"), "record.html: already exists");
+    factory.ends(&format!("{recertify} --key key").replace(".html", ".pdf"), 2, "no-browser-of-this-name");
+    assert_eq!(passports(&factory), before);
     let found = factory.json(&format!("{recertify} --key key --force --exclude 2,3,4 --why lamp"), 0);
-    let page = fs::read_to_string(factory.path("record.html")).unwrap();
+    let page = factory.read("record.html");
     // Expected: the number of the JSON, and one bar for each of the 24 deviations above the axis.
     let changes = found["changes"].as_array().unwrap();
     let gamma = changes.iter().find(|at| at["key"] == "positions[2,3].gamma_arcsec").unwrap();
@@ -360,16 +324,15 @@ fn the_record_shows_the_change_and_the_exclusion() {
     assert_eq!(section.matches("picture strip").count(), changes.len() + 1);
     assert!(page.contains("lamp"));
     // Expected: `certify` with the same exclusion, whose readings the certificate names.
-    let stand = String::from_utf8(passports(&factory)["stand.yaml"].clone()).unwrap();
+    let stand = &passports(&factory)["stand.yaml"];
     assert!(stand.contains("{i: 2, j: 3, run: 4, why: \"lamp\"}"), "{stand}");
     factory.good(&format!("verify passports/SPS-2/0017/here-2.yaml {TRUST}"));
     for (arguments, words) in [
         ("--exclude 2,3,9 --why lamp", "found no reading of position (2, 3) in run 9 to exclude"),
         ("--exclude 2,3,4 --exclude 1,1,1 --exclude 1,1,2 --why a --why b", "found 2 --why for 3 --exclude"),
     ] {
-        let (code, _, said) =
-            factory.said(&format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --dry-run {arguments}"));
-        assert!(code == 2 && said.contains(words), "{said}");
+        let dry_run = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --dry-run {arguments}");
+        factory.ends(&dry_run, 2, words);
     }
 }
 
@@ -379,7 +342,7 @@ fn in_a_workspace_the_stand_file_is_among_the_stands() {
     let factory = factory();
     let settings = "key = \"key\"\nidentity = \"factory\"\ntrust = \"allowed_signers\"\npassports = \"passports\"\n\
                     stands = \"stands\"\nsites = \".\"\n";
-    fs::write(factory.path("dtg-passport.toml"), settings).unwrap();
+    factory.write("dtg-passport.toml", settings);
     fs::create_dir_all(factory.path("stands/SPS-2/0017")).unwrap();
     let stand = factory.path("stands/SPS-2/0017/stand.yaml");
     fs::rename(factory.path("passports/SPS-2/0017/stand.yaml"), &stand).unwrap();

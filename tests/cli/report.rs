@@ -1,47 +1,28 @@
 //! The report of a calibration against the result that programs get, and what it must say large.
 
+use crate::place::Place;
 use crate::programs;
 use serde_json::Value;
-use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Command;
 
 const PASSPORT: &str = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
-const VERIFIED: &[&str] = &["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"];
-const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
-const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
+const CURRENTS: &str = "docs/currents.csv";
+const VERIFIED: &str = "--trust docs/allowed_signers --time 2026-11-20T08:00:00Z --laboratory docs/laboratory.yaml";
+const GYRO: &str = "--gyro docs/gvk-6.yaml";
 
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) -> String {
-        std::fs::write(self.path(name), text).unwrap();
-        self.path(name).display().to_string()
-    }
-
-    fn calibrate(&self, currents: &str, report: &str, options: &[&[&str]]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        command.current_dir(programs::project("")).args(["calibrate", PASSPORT, currents, "--format", "json"]);
-        command.args(options.concat()).arg("--report").arg(self.path(report)).output().unwrap()
-    }
-
-    /// The page, and the result as JSON.
-    fn page(&self, currents: &str, options: &[&[&str]]) -> (String, Value) {
-        let output = self.calibrate(currents, "report.html", &[options, &[&["--force"]]].concat());
-        let words = String::from_utf8_lossy(&output.stderr);
-        let page = std::fs::read_to_string(self.path("report.html")).unwrap_or_else(|_| panic!("no report: {words}"));
-        (page, serde_json::from_slice(&output.stdout).unwrap_or(Value::Null))
-    }
+/// A folder with the example and the files that it is calibrated with.
+fn folder() -> Place {
+    let files = [PASSPORT, CURRENTS, "docs/allowed_signers", "docs/laboratory.yaml", "docs/gvk-6.yaml"];
+    Place::of(&files.map(|name| (name, name)))
 }
 
-const CURRENTS: &str = "docs/currents.csv";
+/// Calibrates, verified and with the laboratory: the page, and the result as JSON.
+fn page(folder: &Place, currents: &str, options: &str) -> (String, Value) {
+    let calibrate = format!("calibrate {PASSPORT} {currents} {VERIFIED} {options} --report report.html --force");
+    let (_, stdout, said) = folder.said(&format!("{calibrate} --format json"));
+    assert!(folder.path("report.html").exists(), "no report: {said}");
+    (folder.read("report.html"), serde_json::from_str(&stdout).unwrap_or(Value::Null))
+}
 
 /// Returns the words of the paragraph on the previous calibration.
 fn previous_calibration(page: &str) -> String {
@@ -51,9 +32,9 @@ fn previous_calibration(page: &str) -> String {
 
 #[test]
 fn the_annex_is_the_result() {
-    let folder = Folder::new();
-    let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
-    let annex = page.split_once("<pre").unwrap().1.split_once('>').unwrap().1.split_once("</pre>").unwrap().0;
+    let folder = folder();
+    let (html, result) = page(&folder, CURRENTS, GYRO);
+    let annex = html.split_once("<pre").unwrap().1.split_once('>').unwrap().1.split_once("</pre>").unwrap().0;
     // Each line is an element of its own, so that it has a number.
     let annex = ["", " class=\"c\"", " class=\"c w\"", " class=\"n\""]
         .iter()
@@ -61,11 +42,11 @@ fn the_annex_is_the_result() {
     let annex = annex.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
     assert_eq!(serde_json::from_str::<Value>(&annex).unwrap(), result);
     // A later calibration can be compared with it.
-    let earlier = folder.write("earlier.json", &annex);
-    let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, &["--previous", &earlier]]);
+    folder.write("earlier.json", &annex);
+    let (html, result) = page(&folder, CURRENTS, &format!("{GYRO} --previous earlier.json"));
     assert!(result["change"].is_object());
-    assert!(page.contains("Change since the previous calibration"));
-    let of_earlier = previous_calibration(&page);
+    assert!(html.contains("Change since the previous calibration"));
+    let of_earlier = previous_calibration(&html);
     let sha256 = &result["subject"]["currents_sha256"].as_str().unwrap()[..8];
     for words in ["date not stated", "SPS-2/0017/moscow-bmstu/1", sha256, "Not confirmed by serial number"] {
         assert!(of_earlier.contains(words), "{words}: {of_earlier}");
@@ -76,8 +57,8 @@ fn the_annex_is_the_result() {
 /// is compared with the latest.
 #[test]
 fn earlier_results_stand_in_the_order_of_their_dates() {
-    let folder = Folder::new();
-    let currents = std::fs::read_to_string(programs::project(CURRENTS)).unwrap();
+    let folder = folder();
+    let currents = folder.read(CURRENTS);
     let (head, rows) = currents.split_at(currents.find("1,1,").unwrap());
     let mut k_x = std::collections::BTreeMap::new();
     for (date, factor) in [("2026-05-12", 1.0002), ("2024-11-03", 1.0001), ("2025-06-30", 0.9999)] {
@@ -88,23 +69,19 @@ fn earlier_results_stand_in_the_order_of_their_dates() {
                 format!("{},{},{:.7},{:.7}\n", cells[0], cells[1], factor * cells[2], factor * cells[3])
             })
             .collect();
-        let larger = folder.write("larger.csv", &format!("{head}{larger}"));
-        let (_, result) = folder.page(&larger, &[VERIFIED, LABORATORY, &["--date", date, "--gyro-serial", "4711"]]);
+        folder.write("larger.csv", format!("{head}{larger}"));
+        let (_, result) = page(&folder, "larger.csv", &format!("--date {date} --gyro-serial 4711"));
         k_x.insert(date, result["results"][0]["k_deg_per_h_per_ma"][0][0].to_string());
-        folder.write(&format!("{date}.json"), &result.to_string());
+        folder.write(format!("{date}.json"), result.to_string());
     }
-    let previous: Vec<String> = ["2026-05-12", "2024-11-03", "2025-06-30"]
-        .iter()
-        .flat_map(|date| ["--previous".to_owned(), folder.path(&format!("{date}.json")).display().to_string()])
-        .collect();
-    let previous: Vec<&str> = previous.iter().map(String::as_str).collect();
-    let asked = [VERIFIED, LABORATORY, GYRO, &previous, &["--date", "2026-11-20", "--gyro-serial", "4711"]];
-    let (page, result) = folder.page(CURRENTS, &asked);
-    let of_earlier = previous_calibration(&page);
+    let previous = "--previous 2026-05-12.json --previous 2024-11-03.json --previous 2025-06-30.json";
+    let asked = format!("{GYRO} {previous} --date 2026-11-20 --gyro-serial 4711");
+    let (html, result) = page(&folder, CURRENTS, &asked);
+    let of_earlier = previous_calibration(&html);
     assert!(of_earlier.contains("2026-05-12") && !of_earlier.contains("Serial numbers"), "{of_earlier}");
     let now = result["results"][0]["k_deg_per_h_per_ma"][0][0].to_string();
     assert_eq!(result["change"]["parameters"][0]["reference_value"].to_string(), k_x["2026-05-12"]);
-    let table = page.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
+    let table = html.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
     let places: Vec<usize> = k_x.values().chain([&now]).map(|value| table.find(value.as_str()).unwrap()).collect();
     assert!(places.is_sorted(), "{places:?}");
     for date in k_x.keys().chain([&"2026-11-20"]) {
@@ -112,30 +89,23 @@ fn earlier_results_stand_in_the_order_of_their_dates() {
     }
     assert_eq!(table.matches("class=\"picture strip\"").count(), 8 * 4 + 1);
     // Without a type there are no strips.
-    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, &previous]);
-    let table = page.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
+    let (html, _) = page(&folder, CURRENTS, previous);
+    let table = html.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
     assert!(!table.contains("strip") && table.contains("2024-11-03"));
 }
 
 #[test]
 fn it_says_with_what_the_gyro_was_calibrated() {
-    let folder = Folder::new();
-    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
+    let (page, _) = page(&folder(), CURRENTS, GYRO);
     for file in [PASSPORT, CURRENTS] {
         // By another program.
-        let mut sum = Command::new("sha256sum");
-        let sum = programs::output({
-            sum.arg(programs::project(file));
-            sum
-        });
-        let sum = sum.split(' ').next().unwrap().to_owned();
+        let sum = programs::sha256(&programs::project(file));
         assert!(page.contains(&sum), "{file}: {sum}");
     }
     let key = programs::project("tests/keys/examples.pub");
-    let mut keygen = Command::new("ssh-keygen");
-    keygen.args(["-l", "-f"]).arg(key);
-    let fingerprint = programs::output(keygen).split(' ').nth(1).unwrap().to_owned();
-    for words in [&fingerprint, "examples@", "SPS-2/0017/moscow-bmstu/1", "GVK-6", "2026-11-20"] {
+    let printed = programs::output(Command::new("ssh-keygen").args(["-l", "-f"]).arg(key));
+    let fingerprint = printed.split(' ').nth(1).unwrap();
+    for words in [fingerprint, "examples@", "SPS-2/0017/moscow-bmstu/1", "GVK-6", "2026-11-20"] {
         assert!(page.contains(words), "{words}");
     }
     assert!(!page.contains("NOT VERIFIED"));
@@ -144,23 +114,16 @@ fn it_says_with_what_the_gyro_was_calibrated() {
 /// Expected: U of ω_g is at least 2·10 °/(h·g)·0.0071/9.8157 = 0.0145 °/(h·g) without a height, over its tolerance of 0.01.
 #[test]
 fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
-    let folder = Folder::new();
-    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, &["--lang", "en,ru"]]);
-    let mut terminal = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    terminal.current_dir(programs::project("")).args(["calibrate", PASSPORT, CURRENTS]);
-    let text = terminal.args([VERIFIED, LABORATORY, GYRO].concat()).output().unwrap().stdout;
-    let text = String::from_utf8(text).unwrap();
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        text.contains("No value of ω_g, ω_k can pass by guarded acceptance: the guard band exceeds the tolerance."),
-        "{text}"
-    );
-    assert!(
-        text.contains(
-            "The height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"
-        ),
-        "{text}"
-    );
+    let folder = folder();
+    let (page, _) = page(&folder, CURRENTS, &format!("{GYRO} --lang en,ru"));
+    let (_, text, _) = folder.said(&format!("calibrate {PASSPORT} {CURRENTS} {VERIFIED} {GYRO}"));
+    let text = programs::in_one_line(&text);
+    for words in [
+        "No value of ω_g, ω_k can pass by guarded acceptance: the guard band exceeds the tolerance.",
+        "The height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
     let page = page.replace('\u{a0}', " ");
     for words in ["can pass by guarded acceptance", "приёмка с защитной полосой невозможна", "The height is not stated"]
     {

@@ -1,8 +1,8 @@
 //! A file with a secret that is given instead of another: no more than 8 of its characters are shown.
 
+use crate::place::Place;
 use crate::programs;
 use std::fs;
-use std::process::Command;
 
 /// A key of age (BIP 173), 32 bytes as base64 and as hexadecimal (RFC 4648), none of which was ever used.
 const SECRETS: [&str; 4] = [
@@ -43,10 +43,7 @@ const COMMANDS: [&str; 22] = [
 
 #[test]
 fn of_a_secret_at_most_eight_characters_are_shown() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    fs::copy(programs::project("tests/keys/examples"), path("key")).unwrap();
-    assert!(Command::new("chmod").arg("600").arg(path("key")).status().unwrap().success());
+    let folder = Place::of(&[(programs::KEY, "key")]);
     let places = [
         ("PASSPORT", programs::project("passports/SPS-2/0017/moscow-bmstu-1.yaml")),
         ("STAND", programs::project("passports/SPS-2/0017/stand.yaml")),
@@ -54,24 +51,22 @@ fn of_a_secret_at_most_eight_characters_are_shown() {
         ("SIGNERS", programs::project("docs/allowed_signers")),
         ("CURRENTS", programs::project("docs/currents.csv")),
         ("ANGLES", programs::project("docs/angles.csv")),
-        ("KEY", path("key")),
-        ("WORKSPACE", path("workspace")),
-        ("FILE", path("secret")),
+        ("KEY", folder.path("key")),
+        ("WORKSPACE", folder.path("workspace")),
+        ("FILE", folder.path("secret")),
     ];
-    fs::create_dir(path("workspace")).unwrap();
     let mut shown = 0;
     for (secret, form) in SECRETS.iter().flat_map(|secret| FORMS.map(|form| (secret, form))) {
         let text = form.replace('@', secret);
-        fs::write(path("secret"), &text).unwrap();
-        fs::write(path("workspace/dtg-passport.toml"), &text).unwrap();
+        folder.write("secret", &text);
+        folder.write("workspace/dtg-passport.toml", &text);
         for command in COMMANDS {
             let arguments = command.split(' ').map(|word| {
                 let place = places.iter().find(|(name, _)| *name == word);
                 place.map_or_else(|| word.into(), |(_, path)| path.clone().into_os_string())
             });
-            let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-            program.args(arguments).current_dir(folder.path()).stdin(fs::File::open(path("secret")).unwrap());
-            let output = program.output().unwrap();
+            let stdin = fs::File::open(folder.path("secret")).unwrap();
+            let output = folder.program().args(arguments).stdin(stdin).output().unwrap();
             assert!(!output.status.success(), "{command}\n{text}");
             let words = [output.stdout, output.stderr].concat();
             let words = String::from_utf8_lossy(&words);

@@ -177,12 +177,13 @@ struct Stage {
 impl Stage {
     fn new(program: &Path) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        copy(&programs::project("tests/cmd/files"), folder.path());
-        fs::copy(programs::project("tests/keys/examples"), folder.path().join("key")).unwrap();
+        programs::output(
+            programs::on_path("cp").arg("-r").arg(programs::project("tests/cmd/files/.")).arg(folder.path()),
+        );
+        let key = folder.path().join("key");
+        fs::copy(programs::project(programs::KEY), &key).unwrap();
         fs::copy(programs::project("tests/keys/examples.pub"), folder.path().join("key.pub")).unwrap();
-        // Git does not keep this mode, and a private key that others can read is refused.
-        let mode = Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap();
-        assert!(mode.success());
+        programs::keep_secret(&key);
         Self { folder, program: program.to_owned(), begun: now() }
     }
 
@@ -282,17 +283,4 @@ fn results_fit_their_schemas(file: &str, recorder: &Path) {
 fn now() -> String {
     let output = Command::new("date").args(["-u", "+%FT%TZ"]).output().unwrap();
     String::from_utf8(output.stdout).unwrap().trim().to_owned()
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
-        let target = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy(&entry.path(), &target);
-        } else {
-            fs::copy(entry.path(), target).unwrap();
-        }
-    }
 }

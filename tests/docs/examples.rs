@@ -30,6 +30,18 @@ fn trust() -> Trust {
     Trust::of(signers)
 }
 
+/// The key that signed them.
+fn key() -> SigningKey {
+    SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap()
+}
+
+/// Writes a file again, if that is asked for.
+fn update(path: &str, bytes: impl AsRef<[u8]>) {
+    if std::env::var_os("UPDATE_EXAMPLES").is_some() {
+        fs::write(programs::project(path), bytes).unwrap();
+    }
+}
+
 /// The passport of a stand that does not exist, which integrators test their software with.
 const FICTITIOUS: &str = "docs/self_check.yaml";
 
@@ -47,16 +59,12 @@ fn passports() -> Vec<(String, String, String)> {
 
 #[test]
 fn the_passports_are_those_that_this_program_issues() {
-    let key = String::from_utf8(read("tests/keys/examples")).unwrap();
-    let key = SigningKey::from_openssh(&key, None).unwrap();
     let order = Issue::first(ISSUER, ISSUED_AT.parse().unwrap());
     for (path, stand, site) in passports() {
         let stand = Stand::from_yaml(&stand, &read(&stand)).unwrap();
         let site = Site::from_yaml(&site, &read(&site)).unwrap();
-        let passport = issue::draft(&stand, &site, &order).unwrap().sign(&key).unwrap();
-        if std::env::var_os("UPDATE_EXAMPLES").is_some() {
-            fs::write(programs::project(&path), &passport).unwrap();
-        }
+        let passport = issue::draft(&stand, &site, &order).unwrap().sign(&key()).unwrap();
+        update(&path, &passport);
         assert!(
             read(&path) == passport.as_bytes(),
             "{path} is not what this program issues: see the head of this file"
@@ -120,6 +128,15 @@ fn documented(options: &[&str], program: &str, arguments: &[&Path]) -> Output {
     python.args(options).arg(programs::project(program)).args(arguments).output().unwrap()
 }
 
+/// Both Python programs with a passport.
+fn both_documented(options: &[&str], passport: &Path, signers: &Path, issuer: &str) -> [Output; 2] {
+    let (currents, issuer) = (programs::project("docs/currents.csv"), Path::new(issuer));
+    [
+        documented(options, "docs/self_check.py", &[passport, signers, issuer]),
+        documented(options, "docs/least_squares.py", &[passport, &currents, signers, issuer]),
+    ]
+}
+
 fn signers() -> PathBuf {
     programs::project("docs/allowed_signers")
 }
@@ -140,11 +157,10 @@ fn the_python_program_finds_the_self_check() {
     let (payload, _) = text.split_once("signature: |\n").unwrap();
     let (before, current) = payload.split_once("jx_ma: ").unwrap();
     let (current, after) = current.split_once(',').unwrap();
-    let key = SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap();
     for wrong in [format!("{}", current.parse::<f64>().unwrap() + 1e-6), ".nan".to_owned()] {
         let payload = format!("{before}jx_ma: {wrong},{after}");
         let file = scratch("self_check").join("wrong.yaml");
-        fs::write(&file, fixtures::signed(&payload, &key)).unwrap();
+        fs::write(&file, fixtures::signed(&payload, &key())).unwrap();
         let output = run(&file);
         assert_eq!(output.status.code(), Some(1));
         assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 4, "{wrong}");
@@ -189,13 +205,7 @@ fn documented_programs_read_signed_bytes_alone() {
         assert_ne!(altered, text, "{name}");
         let file = folder.join("altered.yaml");
         fs::write(&file, altered).unwrap();
-        let currents = programs::project("docs/currents.csv");
-        let (issuer, signers) = (Path::new(ISSUER), signers());
-        let outputs = [
-            documented(&[], "docs/self_check.py", &[&file, &signers, issuer]),
-            documented(&[], "docs/least_squares.py", &[&file, &currents, &signers, issuer]),
-        ];
-        for output in outputs {
+        for output in both_documented(&[], &file, &signers(), ISSUER) {
             let words = String::from_utf8(output.stderr).unwrap();
             assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{name}: {words}");
             assert!(words.contains(": refused: ") && !words.contains("Traceback"), "{name}: {words}");
@@ -211,15 +221,10 @@ fn documented_programs_refuse_another_issuer() {
     let line = String::from_utf8(read("tests/keys/allowed_signers")).unwrap();
     fs::write(&everybody, line.replacen(ISSUER, "*", 1)).unwrap();
     let passport = programs::project("passports/SPS-2/0017/moscow-bmstu-1.yaml");
-    let currents = programs::project("docs/currents.csv");
     for options in [&[][..], &["-O"]] {
         for (issuer, due) in [(ISSUER, 0), ("somebody@example.org", 1)] {
-            let issuer = Path::new(issuer);
-            let codes = [
-                documented(options, "docs/self_check.py", &[&passport, &everybody, issuer]),
-                documented(options, "docs/least_squares.py", &[&passport, &currents, &everybody, issuer]),
-            ]
-            .map(|output| output.status.code());
+            let outputs = both_documented(options, &passport, &everybody, issuer);
+            let codes = outputs.map(|output| output.status.code());
             assert_eq!(codes, [Some(due), Some(due)], "{options:?} {issuer:?}");
         }
     }
@@ -263,26 +268,16 @@ fn scratch(name: &str) -> PathBuf {
 fn the_program_issues_the_same_bytes_as_the_library() {
     let folder = scratch("issue");
     let _ = fs::remove_dir_all(folder.join("out"));
-    let key = folder.join("key");
-    let _ = fs::remove_file(&key);
-    fs::write(&key, read("tests/keys/examples")).unwrap();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(&key, fs::Permissions::from_mode(0o600)).unwrap();
-    }
+    let key_file = folder.join("key");
+    fs::write(&key_file, read(programs::KEY)).unwrap();
+    programs::keep_secret(&key_file);
     let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     program.arg("issue").args(STANDS.map(|folder| programs::project(&format!("{folder}/stand.yaml"))));
     for id in SITES {
         program.arg("--site").arg(programs::project(&format!("sites/{id}.yaml")));
     }
-    program
-        .arg("--key")
-        .arg(&key)
-        .args(["--identity", ISSUER, "--issued-at", ISSUED_AT])
-        .arg("--out")
-        .arg(folder.join("out"));
-    programs::output(program);
+    program.arg("--key").arg(&key_file).args(["--identity", ISSUER, "--issued-at", ISSUED_AT]);
+    programs::output(program.arg("--out").arg(folder.join("out")));
     for stand in STANDS {
         for id in SITES {
             let name = format!("{}/{id}-1.yaml", stand.trim_start_matches("passports/"));
@@ -298,11 +293,9 @@ fn the_program_issues_the_same_bytes_as_the_library() {
         let (start, now) = header.split_once("issued_at: \"").unwrap();
         let now = now.split_once('"').unwrap().1;
         let payload = format!("{before}register: {{{start}issued_at: \"{ISSUED_AT}\"{now}\n{entries}");
-        let key = SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap();
-        let due = fixtures::signed_as(REGISTER_NAMESPACE, &payload, &key);
-        if std::env::var_os("UPDATE_EXAMPLES").is_some() {
-            fs::write(programs::project(&format!("passports/{name}")), &due).unwrap();
-        }
-        assert!(read(&format!("passports/{name}")) == due.as_bytes(), "{name}: see the head of this file");
+        let due = fixtures::signed_as(REGISTER_NAMESPACE, &payload, &key());
+        let name = format!("passports/{name}");
+        update(&name, &due);
+        assert!(read(&name) == due.as_bytes(), "{name}: see the head of this file");
     }
 }

@@ -47,10 +47,7 @@ fn a_dcc_is_signed_and_verified_with_an_xml_tool() {
     let mut export = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     export.args(["export", "passports/SPS-2/0017/moscow-bmstu-1.yaml", "--to", "dcc", "--time", "2026-11-20"]);
     export.args(["--administrative", "docs/dcc.yaml", "--trust", "docs/allowed_signers", "--out"]).arg(folder);
-    programs::output({
-        export.current_dir(programs::project(""));
-        export
-    });
+    programs::output(export.current_dir(programs::project("")));
     let [sign, verify] = &blocks("docs/dcc.md", "Sign a DCC")[..] else { panic!("two blocks") };
     let made = [("DCC", "C-2026-0142.xml"), ("KEY", "own.key"), ("CERTIFICATE", "own.pem")];
     let (good, words) = shell(folder, sign, &made);

@@ -1,8 +1,7 @@
 //! `docs/Verify.java`, which was written from the documentation alone, against this program: both must give the same
 //! answer on text, signature and signer. Needs a JDK (Debian: default-jdk-headless).
 
-use crate::token::provider;
-use crate::{Bench, NAMESPACE, run};
+use crate::{Bench, NAMESPACE, SIGNATURE_LINE, armored, joined, project, run};
 use base64ct::{Base64, Encoding as _};
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::{AllowedSigners, SigningKey};
@@ -11,7 +10,6 @@ use std::path::Path;
 use std::process::Command;
 
 const ISSUER: &str = "examples@dtg-passport.test";
-const SIGNATURE_LINE: &str = "signature: |\n";
 
 /// What both are asked, and whether it is good.
 struct Case {
@@ -36,36 +34,19 @@ impl Case {
     }
 }
 
-fn project(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
-}
-
-fn joined(payload: &str, armor: &str) -> String {
-    let armor: String = armor.lines().map(|line| format!("  {line}\n")).collect();
-    format!("{payload}{SIGNATURE_LINE}{armor}")
-}
-
 /// Returns the file with the block of its signature changed, armored as OpenSSH does.
 fn with_block(file: &str, change: impl FnOnce(&mut Vec<u8>)) -> String {
     let (payload, armor) = file.split_once(SIGNATURE_LINE).unwrap();
     let base64: String = armor.lines().map(str::trim).filter(|line| !line.starts_with('-')).collect();
     let mut block = Base64::decode_vec(&base64).unwrap();
     change(&mut block);
-    let base64 = Base64::encode_string(&block);
-    let lines: Vec<_> = base64.as_bytes().chunks(70).map(|line| str::from_utf8(line).unwrap()).collect();
-    let armor = format!("-----BEGIN SSH SIGNATURE-----\n{}\n-----END SSH SIGNATURE-----\n", lines.join("\n"));
-    joined(payload, &armor)
+    joined(payload, &armored(&block))
 }
 
 /// Returns a passport signed by a token in software, and its line of allowed signers.
 fn by_token(bench: &Bench, payload: &str) -> (String, String) {
-    let with_token = |arguments: &[&str], input: &[u8]| {
-        let finished = bench.run(Command::new("ssh-keygen").env("SSH_SK_PROVIDER", provider()).args(arguments), input);
-        assert!(finished.good, "{}", finished.errors);
-        finished.output
-    };
-    with_token(&["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "token"], b"");
-    let armor = with_token(&["-Y", "sign", "-q", "-f", "token", "-n", NAMESPACE], payload.as_bytes());
+    bench.with_token(&["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "token"], b"");
+    let armor = bench.with_token(&["-Y", "sign", "-q", "-f", "token", "-n", NAMESPACE], payload.as_bytes());
     (joined(payload, &armor), format!("{ISSUER} {}", bench.read("token.pub")))
 }
 
@@ -190,7 +171,8 @@ fn altered(good: &str, signers: &str) -> Vec<Case> {
             cases.push(Case::new(name, file, signers, false));
         }
     };
-    let length = with_length(good);
+    let mut length = 0;
+    with_block(good, |block| length = block.len());
     for bit in 0..8 * length {
         add(
             &format!("bit {bit} of the block"),
@@ -229,12 +211,6 @@ fn altered(good: &str, signers: &str) -> Vec<Case> {
         add(&format!("byte {at} of the text"), file);
     }
     cases
-}
-
-fn with_length(good: &str) -> usize {
-    let mut length = 0;
-    with_block(good, |block| length = block.len());
-    length
 }
 
 #[test]

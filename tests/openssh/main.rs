@@ -16,7 +16,8 @@ mod revocation;
 mod signatures;
 mod token;
 
-use dtg_passport::trust::SigningKey;
+use base64ct::{Base64, Encoding as _};
+use dtg_passport::trust::{PublicKey, SigningKey};
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -65,9 +66,28 @@ impl Bench {
         key
     }
 
+    /// Trusts a key.
+    fn write_signers(&self, key: &PublicKey) {
+        self.write("signers", format!("{PRINCIPAL} {}\n", key.to_openssh()));
+    }
+
     /// Runs `ssh-keygen` in the folder.
     fn keygen(&self, arguments: &[&str]) -> Finished {
         self.run(Command::new("ssh-keygen").args(arguments), b"")
+    }
+
+    /// Runs `ssh-keygen`, which must succeed, with a token in software.
+    fn with_token(&self, arguments: &[&str], input: &[u8]) -> String {
+        let mut command = Command::new("ssh-keygen");
+        let finished = self.run(command.env("SSH_SK_PROVIDER", token::provider()).args(arguments), input);
+        assert!(finished.good, "{}{}", finished.output, finished.errors);
+        finished.output
+    }
+
+    /// Makes a key with `ssh-keygen`, which must succeed.
+    fn made(&self, name: &str, arguments: &[&str]) {
+        let made = self.keygen(&[&["-q", "-f", name][..], arguments].concat());
+        assert!(made.good, "{name}: {}", made.errors);
     }
 
     /// Signs with `ssh-keygen -Y sign` and gives the armor.
@@ -95,6 +115,32 @@ impl Bench {
         }
         run(command, input)
     }
+}
+
+/// A string of SSH (RFC 4251, section 5).
+fn string(bytes: &[u8]) -> Vec<u8> {
+    [&u32::try_from(bytes.len()).unwrap().to_be_bytes()[..], bytes].concat()
+}
+
+/// A block of SSHSIG as OpenSSH writes it.
+fn armored(block: &[u8]) -> String {
+    let base64 = Base64::encode_string(block);
+    let lines: Vec<_> = base64.as_bytes().chunks(70).map(|line| str::from_utf8(line).unwrap()).collect();
+    format!("-----BEGIN SSH SIGNATURE-----\n{}\n-----END SSH SIGNATURE-----\n", lines.join("\n"))
+}
+
+/// The line between a text and its signature in a file.
+const SIGNATURE_LINE: &str = "signature: |\n";
+
+/// A file as `issue` writes it: a text and its signature.
+fn joined(payload: &str, armor: &str) -> String {
+    let armor: String = armor.lines().map(|line| format!("  {line}\n")).collect();
+    format!("{payload}{SIGNATURE_LINE}{armor}")
+}
+
+/// A file of the project.
+fn project(path: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
 }
 
 /// How a program ended.

@@ -4,21 +4,14 @@
 //! together here by the form of the draft (draft-miller-sshm-mldsa44-ed25519-composite-sigs) and of PROTOCOL.sshsig.
 
 use crate::allowed_signers::with_case;
-use crate::{Bench, Finished, NAMESPACE, PRINCIPAL};
+use crate::{Bench, Finished, NAMESPACE, PRINCIPAL, SIGNATURE_LINE, armored, joined, project, string};
 use base64ct::{Base64, Encoding as _};
-use dtg_passport::trust::{AllowedSigners, RevokedKeys, Signature, SignatureError, SigningKey};
-use std::fs;
-use std::path::Path;
+use dtg_passport::trust::{AllowedSigners, RevokedKeys, Signature, SignatureError};
 use std::process::Command;
 
 const ML_DSA: &str = "ssh-mldsa44-ed25519@openssh.com";
 const CERTIFICATE: &str = "ssh-ed25519-cert-v01@openssh.com";
 const NOW: &str = "20260315120000Z";
-
-/// A string of SSH (RFC 4251, section 5).
-fn string(bytes: &[u8]) -> Vec<u8> {
-    [&u32::try_from(bytes.len()).unwrap().to_be_bytes()[..], bytes].concat()
-}
 
 /// The key of ML-DSA-44 (1,312 bytes, FIPS 204) and the one of Ed25519, in one string.
 fn ml_dsa_blob() -> Vec<u8> {
@@ -33,12 +26,6 @@ fn ml_dsa() -> String {
     line_of(ML_DSA, &ml_dsa_blob())
 }
 
-fn armored(block: &[u8]) -> String {
-    let base64 = Base64::encode_string(block);
-    let lines: Vec<_> = base64.as_bytes().chunks(70).map(|line| str::from_utf8(line).unwrap()).collect();
-    format!("-----BEGIN SSH SIGNATURE-----\n{}\n-----END SSH SIGNATURE-----\n", lines.join("\n"))
-}
-
 /// A block of SSHSIG with a signature of ML-DSA-44 (2,420 bytes, FIPS 204) and one of Ed25519.
 fn ml_dsa_armor() -> String {
     let signature = [string(ML_DSA.as_bytes()), string(&[9; 2420 + 64])].concat();
@@ -49,8 +36,7 @@ fn ml_dsa_armor() -> String {
 /// Makes keys of other types, and a certificate of `key`; returns their lines.
 fn others(bench: &Bench) -> Vec<String> {
     for (kind, bits) in [("rsa", "2048"), ("ecdsa", "256"), ("ecdsa", "384"), ("ecdsa", "521"), ("dsa", "1024")] {
-        let name = format!("{kind}{bits}");
-        assert!(bench.keygen(&["-q", "-t", kind, "-b", bits, "-N", "", "-f", &name]).good);
+        bench.made(&format!("{kind}{bits}"), &["-t", kind, "-b", bits, "-N", ""]);
     }
     bench.new_key("authority");
     let signed = bench.keygen(&["-q", "-s", "authority", "-I", "id", "-n", PRINCIPAL, "key.pub"]);
@@ -90,21 +76,13 @@ fn in_lists_of_keys_they_are_skipped_and_a_certificate_revokes_its_key() {
         let list = [known, unknown].concat().join("\n") + "\n";
         let ours = RevokedKeys::parse("revoked", list.as_bytes()).unwrap();
         for key in &keys {
-            bench.write("signers", format!("{PRINCIPAL} {}\n", key.public_key().to_openssh()));
+            bench.write_signers(&key.public_key());
             let armor = key.sign(NAMESPACE, b"text").unwrap().to_armor();
             let theirs = bench.verify("signers", &armor, b"text", &["-r", "revoked"]);
             assert_eq!(ours.revokes(&key.public_key()).is_some(), !theirs.good, "{list}{}", theirs.errors);
         }
         assert_eq!(ours.revokes(&keys[0].public_key()).is_some(), unknown.is_empty());
     }
-}
-
-/// The file as `issue` writes it, with another signature of the same text.
-fn passport(bench: &Bench, armor: &str) -> String {
-    let good = bench.read("good.yaml");
-    let (payload, _) = good.split_once("signature: |\n").unwrap();
-    let indented: String = armor.lines().map(|line| format!("  {line}\n")).collect();
-    format!("{payload}signature: |\n{indented}")
 }
 
 fn verify(bench: &Bench, file: &str, more: &[&str]) -> (Finished, serde_json::Value) {
@@ -115,22 +93,21 @@ fn verify(bench: &Bench, file: &str, more: &[&str]) -> (Finished, serde_json::Va
     (finished, json)
 }
 
-fn bench_with_passport() -> (Bench, SigningKey) {
+fn bench_with_passport() -> Bench {
     let bench = Bench::new();
-    let project = Path::new(env!("CARGO_MANIFEST_DIR"));
-    fs::copy(project.join("passports/SPS-2/0017/moscow-bmstu-1.yaml"), bench.path("good.yaml")).unwrap();
-    fs::copy(project.join("docs/allowed_signers"), bench.path("signers")).unwrap();
-    let key = bench.new_key("key");
-    (bench, key)
+    bench.write("good.yaml", project("passports/SPS-2/0017/moscow-bmstu-1.yaml"));
+    bench.write("signers", project("docs/allowed_signers"));
+    bench.new_key("key");
+    bench
 }
 
 #[test]
 fn a_signature_by_one_is_refused_by_its_type() {
-    let (bench, _) = bench_with_passport();
+    let bench = bench_with_passport();
     others(&bench);
     let text = bench.read("good.yaml");
-    let payload = text.split_once("signature: |\n").unwrap().0.as_bytes();
-    let armor = |key: &str| bench.sign(key, payload);
+    let (payload, _) = text.split_once(SIGNATURE_LINE).unwrap();
+    let armor = |key: &str| bench.sign(key, payload.as_bytes());
     let signed = [
         (ML_DSA, ml_dsa_armor()),
         ("ssh-rsa", armor("rsa2048")),
@@ -140,7 +117,7 @@ fn a_signature_by_one_is_refused_by_its_type() {
     ];
     for (due, armor) in signed {
         assert_eq!(Signature::from_armor(&armor), Err(SignatureError::KeyType(due.to_owned())));
-        bench.write("other.yaml", passport(&bench, &armor));
+        bench.write("other.yaml", joined(payload, &armor));
         let (finished, json) = verify(&bench, "other.yaml", &[]);
         let check = &json[0]["checks"][0];
         assert_eq!((&check["name"], &check["code"]), (&"grammar".into(), &"unsupported_key".into()), "{due}");
@@ -159,7 +136,7 @@ fn a_signature_by_one_is_refused_by_its_type() {
 /// Expected: the good passport stays valid, and one remark has the number of all that were skipped.
 #[test]
 fn skipped_keys_are_one_remark() {
-    let (bench, _) = bench_with_passport();
+    let bench = bench_with_passport();
     let lines = others(&bench);
     let signers: String = lines.iter().map(|line| format!("a {line}\n")).collect();
     bench.write("signers", bench.read("signers") + &signers);

@@ -2,7 +2,7 @@
 
 use crate::agent::Agent;
 use crate::token::provider;
-use crate::{Bench, Finished};
+use crate::{Bench, Finished, SIGNATURE_LINE};
 use dtg_passport::trust::PublicKey;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -60,7 +60,7 @@ fn assert_issued(bench: &Bench, issued: &Finished) {
     assert!(verified.good && verified.output.starts_with("◐ VALID SO FAR"), "{}{}", verified.output, verified.errors);
     // The real OpenSSH accepts the register too, and only as one.
     let register = bench.read("out/SPS-2/0017/register.yaml");
-    let (payload, armor) = register.split_once("signature: |\n").unwrap();
+    let (payload, armor) = register.split_once(SIGNATURE_LINE).unwrap();
     bench.write("register.sig", armor.replace("  ", ""));
     for (namespace, good) in [("dtg-register", true), ("dtg-passport", false)] {
         let mut openssh = Command::new("ssh-keygen");
@@ -73,10 +73,7 @@ fn assert_issued(bench: &Bench, issued: &Finished) {
 #[test]
 fn a_token_signs_a_passport_by_its_handle_file() {
     let bench = Bench::new();
-    let mut keygen = Command::new("ssh-keygen");
-    keygen.env("SSH_SK_PROVIDER", provider()).args(["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "key"]);
-    let made = bench.run(&mut keygen, b"");
-    assert!(made.good, "{}{}", made.output, made.errors);
+    bench.with_token(&["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "key"], b"");
     // The handle does not tell the public half, so what is written cannot be verified without trust.
     let issued = issue(&bench, "key", &[("SSH_SK_PROVIDER", provider())]);
     assert!(!issued.good && issued.errors.contains("specify --trust"), "{}", issued.errors);
@@ -106,8 +103,7 @@ fn no_program_that_is_started_inherits_the_passphrase() {
 #[test]
 fn of_a_public_key_the_private_half_beside_it_is_opened_once_for_a_whole_batch() {
     let bench = Bench::new();
-    let made = bench.keygen(&["-q", "-t", "ed25519", "-N", "correct horse", "-C", "factory", "-f", "key"]);
-    assert!(made.good, "{}", made.errors);
+    bench.made("key", &["-t", "ed25519", "-N", "correct horse", "-C", "factory"]);
     let path = watched(&bench);
     let environment = [("DTG_PASSPORT_PASSPHRASE", Path::new("correct horse")), ("PATH", &path)];
     assert_issued(&bench, &issue(&bench, "key.pub", &environment));
@@ -137,10 +133,7 @@ fn a_public_key_without_its_private_half_is_refused_before_anything_is_signed() 
 #[test]
 fn an_encrypted_handle_of_a_token_belongs_into_the_agent() {
     let bench = Bench::new();
-    let mut keygen = Command::new("ssh-keygen");
-    keygen.env("SSH_SK_PROVIDER", provider()).args(["-q", "-t", "ed25519-sk", "-N", "correct horse", "-f", "key"]);
-    let made = bench.run(&mut keygen, b"");
-    assert!(made.good, "{}{}", made.output, made.errors);
+    bench.with_token(&["-q", "-t", "ed25519-sk", "-N", "correct horse", "-f", "key"], b"");
     let passphrase = Path::new("correct horse");
     for key in ["key", "key.pub"] {
         let issued = issue(&bench, key, &[("SSH_SK_PROVIDER", provider()), ("DTG_PASSPORT_PASSPHRASE", passphrase)]);

@@ -1,6 +1,6 @@
 //! Revoked keys: lists that `ssh-keygen -k` makes, and lists of public keys, with the verdicts of `ssh-keygen`.
 
-use crate::{Bench, NAMESPACE, PRINCIPAL};
+use crate::{Bench, NAMESPACE, PRINCIPAL, string};
 use base64ct::{Base64, Encoding as _};
 use dtg_passport::trust::{RevokedKeys, SigningKey};
 use std::fs;
@@ -73,15 +73,15 @@ fn lists_that_grew_and_lists_of_certificates() {
 #[test]
 fn lists_of_public_keys_count_as_with_ssh_keygen_verify() {
     let (bench, keys) = bench_with_keys();
-    assert!(bench.keygen(&["-q", "-t", "rsa", "-b", "2048", "-N", "", "-f", "rsa"]).good);
-    assert!(bench.keygen(&["-q", "-t", "ecdsa", "-N", "", "-f", "ecdsa"]).good);
+    bench.made("rsa", &["-t", "rsa", "-b", "2048", "-N", ""]);
+    bench.made("ecdsa", &["-t", "ecdsa", "-N", ""]);
     let others = format!("{}{}", bench.read("rsa.pub"), bench.read("ecdsa.pub"));
     let (lost, sold) = (keys[1].public_key().to_openssh(), keys[3].public_key().to_openssh());
     let list = format!("# lost and sold\n{others}  {lost} lost\n\n{sold}\n");
     bench.write("revoked", &list);
     let ours = RevokedKeys::parse("revoked", list.as_bytes()).unwrap();
     for key in &keys {
-        bench.write("signers", format!("{PRINCIPAL} {}\n", key.public_key().to_openssh()));
+        bench.write_signers(&key.public_key());
         let armor = key.sign(NAMESPACE, b"text").unwrap().to_armor();
         let theirs = !bench.verify("signers", &armor, b"text", &["-r", "revoked"]).good;
         assert_eq!(ours.revokes(&key.public_key()).is_some(), theirs);
@@ -108,11 +108,6 @@ fn a_list_cut_short_or_continued_is_refused_by_both() {
     bench.write("longer", [&whole[..], &[0]].concat());
     assert!(!bench.keygen(&["-Q", "-f", "longer", "key5.pub"]).good);
     assert!(RevokedKeys::parse("longer", &[&whole[..], &[0]].concat()).is_err());
-}
-
-/// A string of SSH (RFC 4251, section 5).
-fn string(bytes: &[u8]) -> Vec<u8> {
-    [&u32::try_from(bytes.len()).unwrap().to_be_bytes()[..], bytes].concat()
 }
 
 /// Expected: `ssh-keygen -Q` of OpenSSH 9.2 or later. One of the two refuses every list with an extension (known since
@@ -157,7 +152,7 @@ fn the_key_of_an_authority_is_read_as_openssh_reads_it() {
         [("rsa", "1024"), ("rsa", "2048"), ("ecdsa", "256"), ("ecdsa", "384"), ("ecdsa", "521"), ("ed25519", "256")]
     {
         let name = format!("{kind}{bits}");
-        assert!(bench.keygen(&["-q", "-t", kind, "-b", bits, "-N", "", "-f", &name]).good);
+        bench.made(&name, &["-t", kind, "-b", bits, "-N", ""]);
         let blob = blob_of(&bench.read(&format!("{name}.pub")));
         // Whole, cut, continued, and with a changed byte in each length, in the name of the curve and in the first bytes
         // of each field.

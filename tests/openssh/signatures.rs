@@ -11,7 +11,7 @@ fn message(length: usize) -> Vec<u8> {
 fn bench_with_key() -> (Bench, SigningKey) {
     let bench = Bench::new();
     let key = bench.new_key("key");
-    bench.write("signers", format!("{PRINCIPAL} {}\n", key.public_key().to_openssh()));
+    bench.write_signers(&key.public_key());
     (bench, key)
 }
 

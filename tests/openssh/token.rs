@@ -141,23 +141,18 @@ pub(crate) fn provider() -> &'static Path {
 #[test]
 fn ssh_keygen_signs_through_a_token_and_we_verify() {
     let bench = Bench::new();
-    let with_token = |arguments: &[&str], input: &[u8]| {
-        bench.run(Command::new("ssh-keygen").env("SSH_SK_PROVIDER", provider()).args(arguments), input)
-    };
-    let made = with_token(&["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "key"], b"");
-    assert!(made.good, "{}{}", made.output, made.errors);
+    bench.with_token(&["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "key"], b"");
     let key = PublicKey::from_openssh(&bench.read("key.pub")).unwrap();
     assert_eq!(bench.read("key.pub"), format!("{} token\n", key.to_openssh()));
     assert!(bench.keygen(&["-l", "-f", "key.pub"]).output.contains(&key.fingerprint()));
     for message in [&b""[..], MESSAGE, &[7; 100_000]] {
-        let signed = with_token(&["-Y", "sign", "-q", "-f", "key", "-n", NAMESPACE], message);
-        assert!(signed.good, "{}", signed.errors);
-        let signature = Signature::from_armor(&signed.output).unwrap();
+        let armor = bench.with_token(&["-Y", "sign", "-q", "-f", "key", "-n", NAMESPACE], message);
+        let signature = Signature::from_armor(&armor).unwrap();
         assert_eq!(signature.public_key(), &key);
         assert_eq!(signature.verify(NAMESPACE, message), Ok(()));
         assert_eq!(signature.verify(NAMESPACE, b"other text"), Err(SignatureError::DoesNotHold));
-        bench.write("signers", format!("{PRINCIPAL} {}\n", key.to_openssh()));
-        assert!(bench.verify("signers", &signed.output, message, &[]).good);
+        bench.write_signers(&key);
+        assert!(bench.verify("signers", &armor, message, &[]).good);
     }
     assert_eq!(SigningKey::from_openssh(&bench.read("key"), None).unwrap_err(), KeyError::SecurityKey);
 }

@@ -1,5 +1,7 @@
 //! The stage: every verb's line, the files it takes, and what is wrong with words that come back.
 
+use crate::links::header_of;
+use crate::place::example;
 use crate::programs;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -86,7 +88,7 @@ impl Scene {
         fs::copy(programs::project("tests/keys/examples.pub"), scene.path("key.pub")).unwrap();
         fs::set_permissions(scene.path("key"), fs::Permissions::from_mode(0o600)).unwrap();
         fs::write(scene.path("readings.csv"), readings()).unwrap();
-        fs::write(scene.path("header.yaml"), header()).unwrap();
+        fs::write(scene.path("header.yaml"), header_of(&example("tests/cmd/files/stand.yaml"))).unwrap();
         let make = |line: &str| {
             let output = scene.output(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
             assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
@@ -156,18 +158,9 @@ pub fn hostile_name(file: &str) -> OsString {
     OsString::from_vec([POISON.as_bytes(), b"\xff\xfe", end.as_bytes()].concat())
 }
 
-/// The stand before its angles are known.
-pub fn header() -> String {
-    let stand = fs::read_to_string(programs::project("tests/cmd/files/stand.yaml")).unwrap();
-    let lines = stand.lines().filter(|line| !["repeatability", "common_"].iter().any(|key| line.contains(key)));
-    let nominal =
-        lines.map(|line| line.split_once(", alpha_arcsec").map_or(line.to_owned(), |(head, _)| format!("{head}}}")));
-    nominal.collect::<Vec<_>>().join("\n") + "\n"
-}
-
 /// Three runs of the stand's angles: one is its certificate, the others differ by less than a second of arc.
 pub fn readings() -> String {
-    let stand = fs::read_to_string(programs::project("tests/cmd/files/stand.yaml")).unwrap();
+    let stand = example("tests/cmd/files/stand.yaml");
     let mut rows = "i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n".to_owned();
     for (number, line) in (0..).zip(stand.lines().filter(|line| line.contains("{i: "))) {
         let value = |key: &str| {

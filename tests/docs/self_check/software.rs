@@ -55,6 +55,14 @@ impl Read {
         self.at.iter().find(|at| (at.i, at.j) == (i, j)).unwrap()
     }
 
+    pub fn matrices(&mut self) -> [&mut Matrix2<f64>; 4] {
+        [&mut self.delta, &mut self.b, &mut self.c, &mut self.n2_inverse]
+    }
+
+    pub fn currents(&mut self) -> impl Iterator<Item = &mut Vector2<f64>> {
+        self.at.iter_mut().map(|at| &mut at.current)
+    }
+
     /// X_i of the quantity `x`: (x_i1 − x_i3, x_i2 − x_i4) as columns, eq. (9)-(11).
     pub fn differences(&self, i: u32, x: fn(&At) -> Vector2<f64>) -> Matrix2<f64> {
         let x = |j| x(self.find(i, j));

@@ -25,23 +25,19 @@ fn reading() -> Vec<Wrong> {
         ("n2_inverse transposed", read(|r| r.n2_inverse.transpose_mut())),
         (
             "all matrices transposed: lists of rows read as columns",
-            read(|r| {
-                for matrix in [&mut r.delta, &mut r.b, &mut r.c, &mut r.n2_inverse] {
-                    matrix.transpose_mut();
-                }
-            }),
+            read(|r| r.matrices().into_iter().for_each(Matrix2::transpose_mut)),
         ),
         ("n2 in place of n2_inverse", read(|r| r.n2_inverse = r.n2)),
         ("omega1 in place of B", read(|r| r.b = r.omega1)),
         ("n1 in place of Delta", read(|r| r.delta = r.n1)),
         ("rows of B exchanged", read(|r| r.b.swap_rows(0, 1))),
         ("rows of Delta exchanged", read(|r| r.delta.swap_rows(0, 1))),
-        ("J_x and J_y exchanged", read(|r| r.at.iter_mut().for_each(|at| exchange(&mut at.current)))),
+        ("J_x and J_y exchanged", read(|r| r.currents().for_each(exchange))),
         ("omega_x and omega_y exchanged", read(|r| r.at.iter_mut().for_each(|at| exchange(&mut at.omega)))),
         ("c and d of the specific force exchanged", read(|r| r.at.iter_mut().for_each(|at| exchange(&mut at.n)))),
-        ("sign of J_x reversed", read(|r| r.at.iter_mut().for_each(|at| at.current.x *= -1.0))),
-        ("sign of J_y reversed", read(|r| r.at.iter_mut().for_each(|at| at.current.y *= -1.0))),
-        ("sign of both currents reversed", read(|r| r.at.iter_mut().for_each(|at| at.current *= -1.0))),
+        ("sign of J_x reversed", read(|r| r.currents().for_each(|current| current.x *= -1.0))),
+        ("sign of J_y reversed", read(|r| r.currents().for_each(|current| current.y *= -1.0))),
+        ("sign of both currents reversed", read(|r| r.currents().for_each(|current| *current *= -1.0))),
         ("sign of the specific force reversed", read(|r| r.at.iter_mut().for_each(|at| at.n *= -1.0))),
         ("sign of omega reversed", read(|r| r.at.iter_mut().for_each(|at| at.omega *= -1.0))),
         ("currents sorted by j, then i", read(|r| currents_sorted_by(r, |at| i64::from(100 * at.j + at.i)))),
@@ -94,33 +90,21 @@ fn numbers() -> Vec<Wrong> {
         }
     }
     let read = |read| Software { read, ..RIGHT };
-    let currents = |change: fn(&mut Read)| Software { read: change, ..RIGHT };
+    fn single(x: f64) -> f64 {
+        f64::from(x as f32)
+    }
     vec![
-        ("all numbers in single precision", read(|r| each(r, |x| f64::from(x as f32)))),
-        (
-            "currents in single precision",
-            currents(|r| {
-                r.at.iter_mut().for_each(|at| at.current.apply(|x| *x = f64::from(*x as f32)));
-            }),
-        ),
-        (
-            "matrices in single precision",
-            read(|r| {
-                for matrix in [&mut r.delta, &mut r.b, &mut r.c, &mut r.n2_inverse] {
-                    matrix.apply(|x| *x = f64::from(*x as f32));
-                }
-            }),
-        ),
+        ("all numbers in single precision", read(|r| each(r, single))),
+        ("currents in single precision", read(|r| r.currents().for_each(|current| *current = current.map(single)))),
+        ("matrices in single precision", read(|r| r.matrices().into_iter().for_each(|m| *m = m.map(single)))),
         ("all numbers to six decimals", read(|r| each(r, |x| (x * 1e6).round() / 1e6))),
         ("all numbers to nine decimals, as printed pages show them", read(|r| each(r, |x| (x * 1e9).round() / 1e9))),
         (
             "currents to whole nanoamperes",
-            currents(|r| {
-                r.at.iter_mut().for_each(|at| at.current.apply(|x| *x = (*x * 1e6).round() / 1e6));
-            }),
+            read(|r| r.currents().for_each(|current| *current = current.map(|x| (x * 1e6).round() / 1e6))),
         ),
-        ("currents in microamperes", currents(|r| r.at.iter_mut().for_each(|at| at.current *= 1e3))),
-        ("currents in amperes", currents(|r| r.at.iter_mut().for_each(|at| at.current *= 1e-3))),
+        ("currents in microamperes", read(|r| r.currents().for_each(|current| *current *= 1e3))),
+        ("currents in amperes", read(|r| r.currents().for_each(|current| *current *= 1e-3))),
         ("omega in radians per hour", read(|r| r.at.iter_mut().for_each(|at| at.omega *= 1_f64.to_radians()))),
         ("B in radians per hour", read(|r| r.b *= 1_f64.to_radians())),
         ("C in degrees per second", read(|r| r.c /= 3600.0)),
@@ -258,34 +242,21 @@ fn constant_drifts() -> Vec<Wrong> {
 
 /// The right numbers in the wrong places.
 fn telling() -> Vec<Wrong> {
+    /// Tells for each of K_x, K_xy, K_yx, K_y the one at that place.
+    fn k_from(told: &mut [f64; 8], places: [usize; 4]) {
+        let k = places.map(|place| told[place]);
+        told[..4].copy_from_slice(&k);
+    }
     let tell = |tell| Software { tell, ..RIGHT };
     vec![
-        ("K transposed: K_xy and K_yx exchanged", tell(|told| told.swap(1, 2))),
-        ("K_x and K_y exchanged", tell(|told| told.swap(0, 3))),
-        ("x and y of K exchanged", tell(|told| told[..4].reverse())),
-        (
-            "columns of K exchanged",
-            tell(|told| {
-                told.swap(0, 1);
-                told.swap(2, 3);
-            }),
-        ),
-        (
-            "rows of K exchanged",
-            tell(|told| {
-                told.swap(0, 2);
-                told.swap(1, 3);
-            }),
-        ),
-        (
-            "K made symmetric",
-            tell(|told| {
-                let mean = (told[1] + told[2]) / 2.0;
-                (told[1], told[2]) = (mean, mean);
-            }),
-        ),
+        ("K transposed: K_xy and K_yx exchanged", tell(|told| k_from(told, [0, 2, 1, 3]))),
+        ("K_x and K_y exchanged", tell(|told| k_from(told, [3, 1, 2, 0]))),
+        ("x and y of K exchanged", tell(|told| k_from(told, [3, 2, 1, 0]))),
+        ("columns of K exchanged", tell(|told| k_from(told, [1, 0, 3, 2]))),
+        ("rows of K exchanged", tell(|told| k_from(told, [2, 3, 0, 1]))),
+        ("K made symmetric", tell(|told| (told[1], told[2]) = ((told[1] + told[2]) / 2.0, (told[1] + told[2]) / 2.0))),
         ("K_yx taken for -K_xy", tell(|told| told[2] = -told[1])),
-        ("K_y taken for K_x", tell(|told| told[3] = told[0])),
+        ("K_y taken for K_x", tell(|told| k_from(told, [0, 1, 2, 0]))),
         ("omega_0x and omega_0y exchanged", tell(|told| told.swap(4, 5))),
         ("omega_g and omega_k exchanged", tell(|told| told.swap(6, 7))),
         ("sizes without signs", tell(|told| *told = told.map(f64::abs))),
