@@ -1,5 +1,6 @@
 //! Test stands and their calibration certificates: the file `stand.yaml` (`dtg-stand/1`).
 
+pub(crate) mod remarks;
 pub(crate) mod type_b;
 
 pub(crate) use type_b::Excluded;
@@ -8,8 +9,7 @@ pub use type_b::{ActsOn, Evidence, TypeB};
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
 use crate::text::advice::{beyond_range, without_full_turns};
-use crate::text::scalar::latin;
-use crate::text::{Advice, Document, Identifier, Path, Printable, Problems, RefusalCause, record};
+use crate::text::{Advice, Document, Identifier, Path, Problems, RefusalCause, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
@@ -155,16 +155,6 @@ impl Certificate {
     /// Returns the date to which the deviations belong: that of the measurement, else that of issue.
     pub(crate) fn measured(&self) -> Date {
         self.performed.unwrap_or(self.issued)
-    }
-
-    /// Returns a sentence if letters of the number only look Latin, or `None`; a search for the number would not find it.
-    pub(crate) fn odd_number(&self) -> Option<String> {
-        let (meant, odd) = latin(&self.number)?;
-        let number = Printable(&self.number);
-        Some(format!(
-            "the number of the certificate, {number}, has the {odd}, which only looks like a Latin letter; if Latin letters \
-             are meant, type {meant} again"
-        ))
     }
 
     /// Returns the degrees of freedom of the parts common to a run, three axes for each run after the first; infinite without

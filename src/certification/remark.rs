@@ -4,7 +4,8 @@ use super::components::Components;
 use super::found::{Found, arcsec};
 use super::{AngleReadings, ENOUGH_RUNS};
 use crate::calibration::recorded::rounding_of;
-use crate::stand::{CertifiedPosition, Stand};
+use crate::stand::remarks::Odd;
+use crate::stand::{self, CertifiedPosition, Stand};
 use crate::wording::number::Number;
 use crate::wording::texts::remarks as texts;
 use crate::wording::words::code;
@@ -100,6 +101,8 @@ pub(super) fn remarks(
         let advice = texts::do_date(code("performed"), code("--performed"), code("`recertify`"));
         remarks.push(Remark::advising(texts::NOT_DATED, advice));
     }
+    let of_library = |odd: Odd| Words::OfLibrary(format!("{}.", odd.sentence), Box::new(odd.words)).into();
+    remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(of_library));
     remarks
 }
 

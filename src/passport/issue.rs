@@ -324,7 +324,9 @@ impl Draft {
         let meter = (&Laboratory::paper().meter).into();
         let gyro = GyroType::gvk_6().nominal.to_model();
         let noise = self.ideal.as_ref().and_then(|ideal| noise_growth(&content.coefficients(), ideal, &gyro, meter));
-        let mut odd: Vec<String> = content.certificate.odd_number().into_iter().collect();
+        let odd = stand::remarks::of(&content.certificate, &content.positions);
+        let mut odd: Vec<String> = odd.into_iter().map(|odd| odd.sentence).collect();
+        odd.extend(content.certificate.odd_number());
         odd.extend(content.site.odd());
         let (positions, gravity) = (content.coefficients().positions, content.earth.gravity_m_per_s2);
         odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(&positions, gravity)));
