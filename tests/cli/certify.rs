@@ -80,15 +80,12 @@ fn a_number_keeps_its_angles() {
 #[test]
 fn what_is_odd_is_said() {
     let folder = folder();
-    let header = example("header.yaml").replace("temperature_c: 20.0", "temperature_c: 293.15");
-    fs::write(folder.path("header.yaml"), header).unwrap();
-    let (code, text, _) = folder.said("certify angles.csv --stand header.yaml -o stand.yaml");
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(code == 0 && text.contains("WARNING: temperature_c is 293.15") && text.contains("in kelvin"), "{text}");
-    let shifted = replaced("2,1,", 3, |text| format!("{:.1}", text.parse::<f64>().unwrap() + 67_833.0));
-    fs::write(folder.path("r.csv"), shifted).unwrap();
-    let (code, text, _) = folder.said("certify r.csv --stand header.yaml -o odd.yaml");
-    assert!(code == 0 && text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
+    folder.change("header.yaml", "temperature_c: 20.0", "temperature_c: 293.15");
+    let text = programs::in_one_line(&folder.good("certify angles.csv --stand header.yaml -o stand.yaml"));
+    assert!(text.contains("WARNING: temperature_c is 293.15") && text.contains("in kelvin"), "{text}");
+    folder.write("r.csv", replaced("2,1,", 3, |text| format!("{:.1}", text.parse::<f64>().unwrap() + 67_833.0)));
+    let text = folder.good("certify r.csv --stand header.yaml -o odd.yaml");
+    assert!(text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
 }
 
 /// Least squares with NumPy on the readings that are there: a mean for each position, and a rotation of platform and base
