@@ -9,7 +9,7 @@ fn program(arguments: &[&str]) -> Vec<u8> {
     output.stdout
 }
 
-/// Expected: man(7) and groff_man(7): .SH, .nf and .fi, and \- for a hyphen that can be copied.
+/// Expected: man(7) and groff_man(7): .SH, .nf and .fi, \- for a hyphen that can be copied, and \e for a backslash.
 #[test]
 fn commands_of_a_page_are_not_filled() {
     let folder = tempfile::tempdir().unwrap();
@@ -23,7 +23,7 @@ fn commands_of_a_page_are_not_filled() {
         assert!(page.contains(".SH \"EXIT STATUS\"\n.nf\n  0  done"), "{page}");
     }
     let page = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-    let due = ".SH EXAMPLES\n.nf\n  dtg\\-passport verify moscow\\-bmstu\\-1.yaml \\-\\-trust allowed_signers \
+    let due = ".SH EXAMPLES\n.nf\n  dtg\\-passport verify moscow\\-bmstu\\-1.yaml \\-\\-trust allowed_signers \\e\n    \
                \\-\\-serial 0017 \\-\\-at 55.7660,37.6850\n";
     assert!(page("dtg-passport-verify.1").contains(due));
     assert!(page("dtg-passport-render.1").contains("\\(aqpassports/SPS\\-2/*/*.yaml\\(aq"));
