@@ -29,8 +29,11 @@ pub(crate) fn check_placeholders(node: &Node, problems: &mut Problems) {
     });
 }
 
-/// Ways in which people and programs write what is not a number, with their causes; the first that fits is taken.
-const WAYS: [(fn(&str) -> bool, RefusalCause); 5] = [
+/// Way in which people and programs write what is not a number, with its cause.
+type Way = (fn(&str) -> bool, RefusalCause);
+
+/// The ways; the first that fits is taken.
+const WAYS: [Way; 5] = [
     (|text| text.chars().any(char::is_control), RefusalCause::ControlCharacter),
     (is_date, RefusalCause::SpreadsheetDate),
     (is_overload, RefusalCause::Overload),

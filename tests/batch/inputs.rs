@@ -64,7 +64,7 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     assert_eq!(workshop.sound("passports").len(), 6);
     // A site copied two hundred times without a new id is named by its first files.
     for number in 0..200 {
-        workshop.write(&format!("sites/copy-{number:03}.yaml"), &site("site-00002", 1000 + number));
+        workshop.write(format!("sites/copy-{number:03}.yaml"), &site("site-00002", 1000 + number));
     }
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     let others = "copy-001.yaml, sites/copy-002.yaml, sites/copy-003.yaml, sites/copy-004.yaml, sites/copy-005.yaml";

@@ -57,7 +57,7 @@ impl Job {
         let workshop = Workshop::new(STANDS, SITES);
         for number in 0..STANDS {
             let text = workshop.read(format!("stands/{number:04}/stand.yaml"));
-            workshop.write(&format!("new/{number:04}/stand.yaml"), &text.replace("C-2026-0142", "C-2027-0001"));
+            workshop.write(format!("new/{number:04}/stand.yaml"), &text.replace("C-2026-0142", "C-2027-0001"));
         }
         fs::copy(programs::project("docs/header.yaml"), workshop.path("header.yaml")).unwrap();
         let readings = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
@@ -250,9 +250,9 @@ fn a_thousand_kills() {
 fn leftovers_are_cleared_by_the_next_run_unless_somebody_is_at_work_on_them() {
     let workshop = Workshop::new(1, 2);
     let folder = "passports/SPS-2/0000";
-    workshop.write(&format!("{folder}/.dtg-passport-dead.tmp"), "half a passp");
+    workshop.write(format!("{folder}/.dtg-passport-dead.tmp"), "half a passp");
     workshop.write("passports/.dtg-passport-dead.tmp", "");
-    workshop.write(&format!("{folder}/.dtg-passport-living.tmp"), "half a passp");
+    workshop.write(format!("{folder}/.dtg-passport-living.tmp"), "half a passp");
     let living = File::open(workshop.path(format!("{folder}/.dtg-passport-living.tmp"))).unwrap();
     living.lock().unwrap();
     workshop.run(&format!("issue stands --site sites {SIGN} --dry-run"), 0);

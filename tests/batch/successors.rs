@@ -19,7 +19,7 @@ fn issued() -> Workshop {
 fn certified_again(workshop: &Workshop, stand: &str, number: &str) {
     let text = workshop.read(format!("stands/{stand}/stand.yaml"));
     let text = text.replace("C-2026-0142", number).replace("alpha_arcsec: 12.4", "alpha_arcsec: 12.9");
-    workshop.write(&format!("new/{stand}/stand.yaml"), &text);
+    workshop.write(format!("new/{stand}/stand.yaml"), &text);
 }
 
 fn ids(stand: &str, sites: &[u32], revision: u32) -> BTreeSet<String> {

@@ -31,11 +31,11 @@ impl Workshop {
         let stand = fs::read_to_string(workshop.path("stand.yaml")).unwrap();
         for number in 0..stands {
             let text = stand.replace("\"0017\"", &format!("\"{number:04}\""));
-            workshop.write(&format!("stands/{number:04}/stand.yaml"), &text);
+            workshop.write(format!("stands/{number:04}/stand.yaml"), &text);
         }
         fs::create_dir(workshop.path("sites")).unwrap();
         for number in 0..sites {
-            workshop.write(&format!("sites/site-{number:05}.yaml"), &site(&format!("site-{number:05}"), number));
+            workshop.write(format!("sites/site-{number:05}.yaml"), &site(&format!("site-{number:05}"), number));
         }
         workshop
     }
