@@ -30,8 +30,8 @@ const SINGULAR: f64 = 1e6;
 /// Maximum number of steps of the fit; usually it needs three or four.
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
 
-/// Number of steps after which the fit of a possible cause is given up. A fit is the slower, the larger its residuals are
-/// relative to the currents: with those that a gyro could leave it needs four or five.
+/// Number of steps after which the fit of a possible cause is given up. The larger the residuals are relative to the currents,
+/// the more steps a fit takes; one that explains the readings leaves small ones.
 const STEPS_OF_A_CAUSE: usize = 8;
 
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
