@@ -96,8 +96,13 @@ impl Data {
         self.problem(setup, model).solve()
     }
 
+    /// Returns the fit if it settles, because some gyro could give the readings.
+    pub(crate) fn settled(&self, setup: &Setup, model: Model) -> Option<Fit> {
+        self.fit(setup, model).ok().filter(|fit| fit.settled)
+    }
+
     /// Returns the fit if it settles soon: see [`Problem::solve_soon`].
-    pub(crate) fn fit_soon(&self, setup: &Setup, model: Model) -> Option<Fit> {
+    pub(crate) fn settled_soon(&self, setup: &Setup, model: Model) -> Option<Fit> {
         self.problem(setup, model).solve_soon()
     }
 

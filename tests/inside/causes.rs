@@ -343,7 +343,7 @@ mod of_the_factory {
 
     const SITE: &str = "format: \"dtg-site/1\"\nid: \"here\"\nlatitude_deg: 55.5\n";
 
-    /// What is told of a site with a line that is wrong.
+    /// Returns the refusal of a site file with one wrong line.
     fn site(line: &str) -> First {
         first(&Site::from_yaml("s", format!("{SITE}{line}\n").as_bytes()).unwrap_err())
     }

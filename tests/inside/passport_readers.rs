@@ -109,8 +109,7 @@ fn readers_agree_on_every_altered_byte() {
 
 #[test]
 fn readers_agree_on_every_other_spelling_of_a_number() {
-    // The second has the numbers of the same stand as the full one.
-    for payload in [payloads().swap_remove(0), full()] {
+    for payload in payloads() {
         let digit = |c: char| c.is_ascii_digit() || "+-.e".contains(c);
         let mut at = 0;
         while let Some(start) = payload[at..].find([' ', '[']).map(|found| at + found + 1) {

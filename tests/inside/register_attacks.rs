@@ -149,7 +149,7 @@ impl Factory {
         fs::write(self.register(), good).unwrap();
     }
 
-    /// The same with the register changed and signed by `key`.
+    /// Returns the answer when the register is changed and signed by `key`.
     fn with_changed(&self, change: Change, key: &SigningKey, attack: impl FnOnce()) {
         let mut register = self.content();
         change(&mut register);

@@ -4,7 +4,7 @@
 //! of another site, a gyro or a base that is rotated, positions with other numbers. A result is explained by the only change
 //! that brings it clearly nearest to the type.
 
-use super::fits::{LARGEST_ROTATION_DEG, fitted, numberings, settled};
+use super::fits::{LARGEST_ROTATION_DEG, fitted, numberings};
 use super::{Finding, Kind, Scope, minimum};
 use crate::calibration::data::{Data, Observation};
 use crate::calibration::{Found, Model, Options, Readings, Setup, Verdict, against_type};
@@ -139,7 +139,7 @@ impl Case<'_> {
 
     /// Returns the result of other readings on another set-up. Its uncertainties are those of the result, relative to K.
     fn refitted(&self, setup: &Setup, data: &Data) -> Option<Found> {
-        let fit = settled(setup, data, self.model)?;
+        let fit = data.settled(setup, self.model)?;
         let (parameters, found) = (fit.unknowns.parameters, &self.found);
         let scale = parameters.k_deg_per_h_per_ma.norm() / found.parameters.k_deg_per_h_per_ma.norm();
         let values = found.parameters.to_vector();

@@ -157,7 +157,7 @@ impl Case<'_> {
     fn other_axes(&self) -> Vec<Possible> {
         let of = |by_deg: f64| {
             let turned = self.setup.turned(by_deg);
-            let fit = settled(&turned, self.data, self.fit.of);
+            let fit = self.data.settled(&turned, self.fit.of);
             fit.map_or(f64::INFINITY, |fit| chi_square::quadratic_form(&Propagation::new(&turned, self.data, &fit)).0)
         };
         let small = minimum(-LARGEST_ROTATION_DEG, LARGEST_ROTATION_DEG, of);
@@ -327,12 +327,7 @@ fn possibility(setup: &Setup, data: &Data, model: Model, cause: Finding) -> Opti
 
 /// Returns chi-square and the parameters of readings.
 pub(super) fn fitted(setup: &Setup, data: &Data, model: Model) -> Option<(ChiSquare, GyroParameters)> {
-    let fit = data.fit_soon(setup, model)?;
+    let fit = data.settled_soon(setup, model)?;
     let found = chi_square::chi_square(&Propagation::new(setup, data, &fit));
     found.value.is_finite().then_some((found, fit.unknowns.parameters))
-}
-
-/// Returns the fit of readings that some gyro could give.
-pub(super) fn settled(setup: &Setup, data: &Data, model: Model) -> Option<Fit> {
-    data.fit(setup, model).ok().filter(|fit| fit.settled)
 }

@@ -229,8 +229,7 @@ fn exchanged_currents_and_positions_are_named() {
         ("range y", Kind::Range, |j| Vector2::new(j.x, 10.0 * j.y)),
         ("range", Kind::Range, |j| j / 2.0),
     ];
-    // All are named in 400 of 400 runs of each.
-    let count = super::trials(60).min(400);
+    let count = trials().min(400);
     for (number, (name, kind, map)) in of_turn_on.into_iter().enumerate() {
         for stated in [false, true] {
             let fault = Fault { of_turn_on: Some(map), ..Fault::default() };

@@ -18,7 +18,7 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 /// Trials of each kind. The figures of docs/development/reproduction.md:
 /// `DTG_TRIALS=10000 cargo test --release --lib inside::slow::diagnosis -- --nocapture`.
 fn trials() -> u64 {
-    super::trials(500)
+    super::trials(1_000)
 }
 
 fn solve(setup: &Setup, currents_ma: &[Vector2<f64>]) -> Calibration {
@@ -46,7 +46,7 @@ fn noisy(stream: &mut Stream, currents_ma: &[Vector2<f64>]) -> Vec<Vector2<f64>>
     currents_ma.iter().map(|current| current.map(|j| j * (1.0 + stream.within(1.5e-4)))).collect()
 }
 
-/// Whether the right cause is named first, is among several, whether nothing is named, and whether only others are.
+/// Answer to a mistake: the right cause is named first, it is among several, nothing is named, or only wrong causes are.
 fn outcome(calibration: &Calibration, is_right: impl Fn(&Finding) -> bool) -> [bool; 4] {
     let right: Vec<bool> = calibration.causes.iter().map(is_right).collect();
     let (first, named) = (right.first() == Some(&true), right.contains(&true));
@@ -433,7 +433,7 @@ fn turned_in_seat(stream: &mut Stream, stand: &[Position], gyro: &GyroParameters
 #[test]
 fn a_turned_gyro_and_a_turned_base_are_recognised() {
     let mut stream = Stream::new(25);
-    for _ in 0..trials().min(1_000) / 25 {
+    for _ in 0..trials().min(1_000) / 20 {
         let stand = drawn_stand(&mut stream, 3.0);
         let gyro = good_gyro(&mut stream, LATITUDE_DEG);
         for by_deg in [90.0, 180.0, 270.0] {
@@ -467,7 +467,7 @@ fn a_turned_gyro_and_a_turned_base_are_recognised() {
 #[test]
 fn another_numbering_is_recognised_by_the_parameters() {
     let mut stream = Stream::new(31);
-    for _ in 0..trials().min(500) / 25 {
+    for _ in 0..trials().min(1_000) / 50 {
         let stand = drawn_stand(&mut stream, 0.002);
         let good = good_currents(&mut stream, &stand, LATITUDE_DEG);
         let numberings = [[1_u32, 2], [2, 1]].into_iter().flat_map(|i| (0..8_u32).map(move |step| (i, step)));

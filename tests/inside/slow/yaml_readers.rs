@@ -240,15 +240,12 @@ fn numbers_come_back_bit_for_bit() {
 
     let row = |values: &[f64]| Node::List(values.iter().map(|value| Node::Number(*value)).collect());
     let matrix = |values: &[f64]| Node::List(values.chunks(2).map(row).collect());
-    // Of eight values four are in a matrix and four have keys of their own.
-    let chunks = || values.chunks(8).map(|chunk| chunk.split_at(4)).enumerate();
-    let keyed = chunks().flat_map(|(at, (_, rest))| (8 * at..).zip(rest));
     // As items of a mapping on one line, as a position is written.
     let position = |(i, pair)| map([("i", Node::Integer(i)), ("j", Node::Integer(-i)), ("omega", row(pair))]);
     let document = map([
         ("first", Node::Integer(1)),
-        ("matrices", map(chunks().map(|(at, (of_matrix, _))| (format!("m{at}"), matrix(of_matrix))))),
-        ("values", map(keyed.map(|(at, value)| (format!("v{at}"), Node::Number(*value))))),
+        ("matrices", map(values.chunks(8).enumerate().map(|(at, chunk)| (format!("m{at}"), matrix(chunk))))),
+        ("values", map(values.iter().enumerate().map(|(at, value)| (format!("v{at}"), Node::Number(*value))))),
         ("positions", Node::List((1..=8).zip(values.chunks(2)).map(position).collect())),
     ]);
     goes_through_every_reader("numbers", &document);
@@ -385,11 +382,11 @@ fn keys_come_back_as_texts() {
         .filter(|key| may_be_a_key(key) && once.insert(key.clone()))
         .collect();
 
-    let all = |values: &[Node]| map(keys.iter().map(String::as_str).zip(values.iter().cloned().cycle()));
+    let all = |value: &Node| map(keys.iter().map(|key| (key.as_str(), value.clone())));
     let document = map([
         ("first", Node::Integer(1)),
-        ("block", all(&[Node::Bool(true)])),
-        ("items", Node::List(vec![all(&[Node::Bool(false), text(""), Node::Integer(-7)])])),
+        ("block", all(&Node::Bool(true))),
+        ("items", Node::List(vec![all(&Node::Bool(false)), all(&text("")), all(&Node::Integer(-7))])),
         ("empty_list", Node::List(Vec::new())),
         ("empty_map", Node::Map(Vec::new())),
     ]);
